@@ -1,0 +1,78 @@
+//! The one error type of the library: variants carry facts, sentences are made here.
+
+use std::path::PathBuf;
+
+/// What can go wrong. Messages are lower case without a full stop, so that causes chain with `: `.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A number given to a function or on the command line is outside the range in which it means something.
+    #[error("{argument} is {got}, expected {expected}")]
+    Argument {
+        /// The argument, field or option at fault.
+        argument: &'static str,
+        /// What was given.
+        got: String,
+        /// The range or form that is accepted.
+        expected: &'static str,
+    },
+    /// An equation has no solution for these inputs.
+    #[error("no {quantity} gives {got}: attainable is {low} to {high}")]
+    NoRoot {
+        /// The unknown that was sought.
+        quantity: &'static str,
+        /// The value that cannot be reached, with its unit.
+        got: String,
+        /// Lower end of what can be reached, with its unit.
+        low: String,
+        /// Upper end of what can be reached, with its unit.
+        high: String,
+    },
+    /// The content of a WAV file breaks its own format.
+    #[error("not a readable WAV: {problem}")]
+    Wav {
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Fewer impacts than a computation needs.
+    #[error("found {found} impacts, {purpose} needs at least {needed}")]
+    TooFewImpacts {
+        /// How many there are.
+        found: usize,
+        /// How many it takes.
+        needed: usize,
+        /// What they were needed for.
+        purpose: &'static str,
+    },
+    /// Reading or writing failed.
+    #[error(transparent)]
+    Io(#[from] std::io::Error),
+    /// An error that happened while working on one file.
+    #[error("{}: {source}", path.display())]
+    InFile {
+        /// The file.
+        path: PathBuf,
+        /// What happened to it.
+        source: Box<Error>,
+    },
+}
+
+impl Error {
+    /// An [`Error::Argument`] for a number that is out of range.
+    pub(crate) fn argument(argument: &'static str, got: f64, expected: &'static str) -> Self {
+        Self::Argument {
+            argument,
+            got: got.to_string(),
+            expected,
+        }
+    }
+
+    /// Says in which file this error happened.
+    #[must_use]
+    pub fn in_file(self, path: impl Into<PathBuf>) -> Self {
+        Self::InFile {
+            path: path.into(),
+            source: Box::new(self),
+        }
+    }
+}

@@ -1,0 +1,3 @@
+//! The `bounce-audio` command.
+
+fn main() {}

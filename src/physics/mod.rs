@@ -1,0 +1,1 @@
+//! Flight, contact and the equations of Nagurka and Huang. Knows nothing of audio.

@@ -1,0 +1,186 @@
+//! Instants, intervals, counts and quantities with units: the only place where samples become seconds.
+
+use std::ops::{Add, Sub};
+
+use crate::Error;
+
+/// A point in time, in seconds from the first sample of the recording.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, serde::Serialize)]
+#[serde(transparent)]
+pub struct Instant(f64);
+
+/// A signed span between two [`Instant`]s, in seconds.
+#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, serde::Serialize)]
+#[serde(transparent)]
+pub struct Interval(f64);
+
+impl Instant {
+    /// The instant `s` seconds after the first sample.
+    #[must_use]
+    pub const fn seconds(s: f64) -> Self {
+        Self(s)
+    }
+
+    /// Seconds from the first sample.
+    #[must_use]
+    pub const fn s(self) -> f64 {
+        self.0
+    }
+}
+
+impl Interval {
+    /// A span of `s` seconds.
+    #[must_use]
+    pub const fn seconds(s: f64) -> Self {
+        Self(s)
+    }
+
+    /// The span in seconds.
+    #[must_use]
+    pub const fn s(self) -> f64 {
+        self.0
+    }
+}
+
+impl Sub for Instant {
+    type Output = Interval;
+    fn sub(self, earlier: Self) -> Interval {
+        Interval(self.0 - earlier.0)
+    }
+}
+
+impl Add<Interval> for Instant {
+    type Output = Self;
+    fn add(self, span: Interval) -> Self {
+        Self(self.0 + span.0)
+    }
+}
+
+/// A count as a real number.
+///
+/// Counts here are samples, impacts and files: far below 2⁵³, so nothing is rounded.
+#[expect(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+#[must_use]
+pub const fn real(count: usize) -> f64 {
+    count as f64
+}
+
+/// What a number with a unit measures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Metres: `m`, `cm`, `mm`, `in`, `ft`.
+    Length,
+    /// Kilograms: `kg`, `g`, `mg`, `oz`, `lb`.
+    Mass,
+    /// Seconds: `s`, `ms`, `us`, `µs`, `min`.
+    Time,
+    /// Metres per second squared: `m/s2`, `m/s^2`, `m/s²`.
+    Acceleration,
+}
+
+impl Quantity {
+    /// Units and their size in SI, longest suffix first where one ends with another.
+    const fn units(self) -> &'static [(&'static str, f64)] {
+        match self {
+            Self::Length => &[
+                ("mm", 1e-3),
+                ("cm", 1e-2),
+                ("in", 0.0254),
+                ("ft", 0.3048),
+                ("m", 1.0),
+            ],
+            Self::Mass => &[
+                ("mg", 1e-6),
+                ("kg", 1.0),
+                ("oz", 0.028_349_523_125),
+                ("lb", 0.453_592_37),
+                ("g", 1e-3),
+            ],
+            Self::Time => &[
+                ("ms", 1e-3),
+                ("us", 1e-6),
+                ("µs", 1e-6),
+                ("μs", 1e-6),
+                ("min", 60.0),
+                ("s", 1.0),
+            ],
+            Self::Acceleration => &[("m/s^2", 1.0), ("m/s2", 1.0), ("m/s²", 1.0)],
+        }
+    }
+
+    const fn expected(self) -> &'static str {
+        match self {
+            Self::Length => "a length such as 30.5cm, 12in or 0.305 (in m)",
+            Self::Mass => "a mass such as 2.5g, 0.1oz or 0.0025 (in kg)",
+            Self::Time => "a time such as 1ms, 7.5s or 7.5 (in s)",
+            Self::Acceleration => "an acceleration such as 9.81 or 9.81m/s2",
+        }
+    }
+
+    /// Reads a number with an optional unit, as in `30.5cm`, and gives it in SI. A bare number is SI already.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] naming `argument` if the text is no finite number with a unit of this quantity.
+    pub fn parse(self, argument: &'static str, text: &str) -> Result<f64, Error> {
+        let trimmed = text.trim();
+        let (number, scale) = self
+            .units()
+            .iter()
+            .find_map(|&(unit, scale)| Some((trimmed.strip_suffix(unit)?.trim_end(), scale)))
+            .unwrap_or((trimmed, 1.0));
+        match number.parse::<f64>() {
+            Ok(value) if (value * scale).is_finite() => Ok(value * scale),
+            _ => Err(Error::Argument {
+                argument,
+                got: format!("'{text}'"),
+                expected: self.expected(),
+            }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_with_units_become_si() {
+        for (quantity, text, si) in [
+            (Quantity::Length, "30.5cm", 0.305),
+            (Quantity::Length, "12in", 0.3048),
+            (Quantity::Length, " 0.3 m ", 0.3),
+            (Quantity::Length, "0.305", 0.305),
+            (Quantity::Mass, "2.5g", 0.0025),
+            (Quantity::Mass, "1 kg", 1.0),
+            (Quantity::Time, "1ms", 0.001),
+            (Quantity::Time, "250µs", 0.000_25),
+            (Quantity::Time, "2min", 120.0),
+            (Quantity::Acceleration, "9.81m/s2", 9.81),
+        ] {
+            let got = quantity.parse("x", text).unwrap();
+            assert!((got - si).abs() <= 1e-15 * si, "{text}: {got}");
+        }
+    }
+
+    #[test]
+    fn what_is_no_quantity_is_refused_by_name() {
+        for text in [
+            "", "cm", "30.5kg", "nan", "inf", "1e400", "1,5m", "--", "3 0cm",
+        ] {
+            let error = Quantity::Length
+                .parse("--height", text)
+                .unwrap_err()
+                .to_string();
+            assert!(
+                error.contains("--height") && error.contains("30.5cm"),
+                "{text}: {error}"
+            );
+        }
+    }
+
+    #[test]
+    fn an_instant_and_an_interval_make_an_instant() {
+        let start = Instant::seconds(1.5);
+        assert_eq!((start + Interval::seconds(0.25) - start).s(), 0.25);
+    }
+}
