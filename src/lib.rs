@@ -11,8 +11,12 @@
     )
 )]
 
+pub mod detect;
 pub mod error;
 pub mod physics;
+pub mod random;
+pub mod sequence;
 pub mod units;
+pub mod wav;
 
 pub use error::Error;

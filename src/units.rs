@@ -65,6 +65,17 @@ pub const fn real(count: usize) -> f64 {
     count as f64
 }
 
+/// Number of whole samples in a span, rounded to nearest. The one place where seconds become samples.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates: NaN and negatives become 0, which callers treat as an empty span"
+)]
+#[must_use]
+pub fn samples_in(span_s: f64, sample_rate_hz: f64) -> usize {
+    (span_s * sample_rate_hz).round() as usize
+}
+
 /// What a number with a unit measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {

@@ -1,0 +1,133 @@
+//! Where something struck: candidate impacts from samples and a rate. Knows nothing of balls.
+//!
+//! [`filterbank`] splits a stretch of the recording into octaves, [`rise`] measures how surely the energy went up at
+//! each moment, [`peaks`] picks the moments. [`refine`] then times chosen impacts below one sample.
+
+pub mod filterbank;
+pub mod peaks;
+pub mod refine;
+pub mod rise;
+
+use crate::Error;
+use crate::units::{real, samples_in};
+
+/// How candidates are found. Every field has a default that suits all recordings seen so far.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Settings {
+    /// Time grid of the energy, in seconds; rounded to a power of two of samples. Default 0.25 ms: a few times shorter
+    /// than the shortest contact, and still cheap.
+    pub hop_s: f64,
+    /// Lowest frequency listened to, in Hz. Default 60: a basketball's thud is above, rumble and hum mostly below.
+    pub lowest_hz: f64,
+    /// Two candidates are at least this far apart, in seconds. Default 1 ms: a quarter of the shortest audible flight.
+    pub separation_s: f64,
+    /// Weakest candidate kept, in nats of evidence. Default 2: more would be noise, and the sequence needs weak ones.
+    pub weakest: f64,
+    /// Length of the stretches whose ordinary level is learnt together, in seconds. Default 8: long against a flight,
+    /// short against a change of scene.
+    pub segment_s: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            hop_s: 0.25e-3,
+            lowest_hz: 60.0,
+            separation_s: 1e-3,
+            weakest: 2.0,
+            segment_s: 8.0,
+        }
+    }
+}
+
+/// A moment at which the energy rose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Candidate {
+    /// Seconds from the first sample, to about a quarter of a millisecond.
+    pub time_s: f64,
+    /// Evidence that something struck, in nats: a log-likelihood ratio summed over bands.
+    pub strength: f64,
+}
+
+/// Margin on both sides of a segment that is computed but not reported, in seconds: the reach of the longest filters.
+const MARGIN_S: f64 = 0.25;
+
+/// All moments at which the energy rose, weak ones included, in order of time.
+///
+/// # Errors
+/// [`Error::Argument`] if the rate is too low to hold an octave above [`Settings::lowest_hz`] or a setting is not
+/// positive.
+pub fn candidates(
+    samples: &[f32],
+    sample_rate_hz: f64,
+    settings: &Settings,
+) -> Result<Vec<Candidate>, Error> {
+    settings.check()?;
+    let bank = filterbank::Filterbank::new(sample_rate_hz, settings.hop_s, settings.lowest_hz)?;
+    let hop = bank.hop();
+    // Whole hops, so that the grids of neighbouring segments are one grid.
+    let segment = samples_in(settings.segment_s, sample_rate_hz).div_ceil(hop) * hop;
+    let margin = samples_in(MARGIN_S, sample_rate_hz).div_ceil(hop) * hop;
+    let mut found = Vec::new();
+    let mut start = 0;
+    while start < samples.len() {
+        // A short remainder joins the last segment: too little to learn an ordinary level from.
+        let end = if samples.len() - start < segment + segment / 2 {
+            samples.len()
+        } else {
+            start + segment
+        };
+        let from = start.saturating_sub(margin);
+        let to = (end + margin).min(samples.len());
+        let evidence = rise::evidence(&bank, &samples[from..to]);
+        let inside = (start - from) / hop..(end - from).div_ceil(hop);
+        found.extend(
+            peaks::pick(
+                &evidence,
+                settings.separation_s / bank.hop_s(),
+                settings.weakest,
+            )
+            .into_iter()
+            .filter(|p| inside.contains(&p.index))
+            .map(|p| Candidate {
+                time_s: real(from) / sample_rate_hz + p.position * bank.hop_s(),
+                strength: p.height,
+            }),
+        );
+        start = end;
+    }
+    Ok(found)
+}
+
+/// How many of its strongest candidates speak for a channel.
+const SPEAKERS: usize = 100;
+
+/// How clearly a recording's impacts stand out: the sum of its hundred strongest candidates, in nats.
+///
+/// Of several channels the clearest is listened to. Channels are never averaged: two microphones hear one impact at
+/// different times, and their sum smears its onset.
+#[must_use]
+pub fn clarity(candidates: &[Candidate]) -> f64 {
+    let mut strengths: Vec<f64> = candidates.iter().map(|c| c.strength).collect();
+    strengths.sort_by(|a, b| b.total_cmp(a));
+    strengths.iter().take(SPEAKERS).sum()
+}
+
+impl Settings {
+    fn check(&self) -> Result<(), Error> {
+        let positive = "a positive number";
+        for (name, value) in [
+            ("hop_s", self.hop_s),
+            ("lowest_hz", self.lowest_hz),
+            ("separation_s", self.separation_s),
+            ("weakest", self.weakest),
+            ("segment_s", self.segment_s),
+        ] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(Error::argument(name, value, positive));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,74 @@
+//! Local maxima of the evidence.
+
+use crate::units::real;
+
+/// A local maximum.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Peak {
+    /// Its index.
+    pub index: usize,
+    /// Where it is between the indices, by the parabola through its neighbours.
+    pub position: f64,
+    /// Its height.
+    pub height: f64,
+}
+
+/// Maxima of at least `lowest` that no higher value is nearer to than `separation` indices, in order.
+#[must_use]
+pub fn pick(values: &[f32], separation: f64, lowest: f64) -> Vec<Peak> {
+    let reach = crate::units::samples_in(separation, 1.0).max(1);
+    let mut peaks = Vec::new();
+    for (i, &height) in values.iter().enumerate() {
+        if f64::from(height) < lowest {
+            continue;
+        }
+        let before = &values[i.saturating_sub(reach)..i];
+        let after = &values[i + 1..(i + 1 + reach).min(values.len())];
+        // Of equals the first is the peak.
+        if before.iter().all(|&v| v < height) && after.iter().all(|&v| v <= height) {
+            peaks.push(Peak {
+                index: i,
+                position: real(i) + vertex(values, i),
+                height: f64::from(height),
+            });
+        }
+    }
+    peaks
+}
+
+/// Offset in ±½ of the vertex of the parabola through three neighbouring values; 0 at the ends.
+fn vertex(values: &[f32], i: usize) -> f64 {
+    let at = |j: usize| values.get(j).copied().map(f64::from);
+    let (Some(left), Some(middle), Some(right)) = (i.checked_sub(1).and_then(at), at(i), at(i + 1))
+    else {
+        return 0.0;
+    };
+    let curvature = left - 2.0 * middle + right;
+    if curvature < 0.0 {
+        (0.5 * (left - right) / curvature).clamp(-0.5, 0.5)
+    } else {
+        0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_the_highest_of_near_ones_is_a_peak() {
+        let values = [0.0, 3.0, 0.0, 4.0, 0.0, 0.0, 0.0, 0.0, 2.5, 2.5, 0.0, 1.0];
+        let found: Vec<usize> = pick(&values, 3.0, 2.0).iter().map(|p| p.index).collect();
+        assert_eq!(found, [3, 8]);
+    }
+
+    #[test]
+    fn the_vertex_of_a_parabola_is_found_between_the_samples() {
+        #[expect(clippy::cast_possible_truncation, reason = "test values")]
+        let values: Vec<f32> = (0..9)
+            .map(|i| (50.0 - (real(i) - 4.3).powi(2)) as f32)
+            .collect();
+        let peak = pick(&values, 2.0, 1.0)[0];
+        assert!((peak.position - 4.3).abs() < 1e-4, "{}", peak.position);
+    }
+}

@@ -1,0 +1,60 @@
+//! Constant-fraction timing: where an impact's envelope first reaches a fixed share of its own peak.
+
+use super::Window;
+use crate::units::{real, samples_in};
+
+/// Where an envelope rises, in samples of its window.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rise {
+    /// Position between samples.
+    pub position: f64,
+    /// Standard error by the noise on the slope.
+    pub std: f64,
+}
+
+/// The share of the peak: low enough to be early in the rise, high enough to be clear of the noise.
+const FRACTION: f64 = 0.3;
+/// Width of the smoothing, in seconds: about the rise of an impact.
+const SMOOTHING_S: f64 = 0.1e-3;
+/// The peak is sought this far before and after the coarse time, in seconds.
+const EARLIEST_S: f64 = 0.8e-3;
+const LATEST_S: f64 = 1.5e-3;
+
+/// The constant-fraction time of a window; none if its peak is not clear of the noise.
+#[must_use]
+pub fn time(window: &Window, sample_rate_hz: f64) -> Option<Rise> {
+    let envelope = envelope(&window.samples, samples_in(SMOOTHING_S, sample_rate_hz).max(1));
+    let from = window.coarse.saturating_sub(samples_in(EARLIEST_S, sample_rate_hz));
+    let to = (window.coarse + samples_in(LATEST_S, sample_rate_hz)).min(envelope.len());
+    let peak = (from..to).max_by(|&a, &b| envelope[a].total_cmp(&envelope[b]))?;
+    // What rings on from the impact before is the level that this one rises from.
+    let before = &envelope[from.saturating_sub(to - from)..from];
+    let level = before.iter().sum::<f64>() / real(before.len().max(1));
+    let spread = (before.iter().map(|e| (e - level).powi(2)).sum::<f64>() / real(before.len().max(1))).sqrt();
+    if envelope[peak] < level + 2.0 * spread || before.is_empty() {
+        return None;
+    }
+    let threshold = level + FRACTION * (envelope[peak] - level);
+    let above = (from..=peak).rev().find(|&i| envelope[i] < threshold)? + 1;
+    let slope = envelope[above] - envelope[above - 1];
+    let position = real(above - 1) + (threshold - envelope[above - 1]) / slope;
+    // The smoothed noise moves the crossing by spread/slope; the sampling of the envelope by some hundredths.
+    let steepness = (envelope[peak] - level) / real((peak - above + 2).max(1));
+    Some(Rise { position, std: (spread / steepness).hypot(0.3) })
+}
+
+/// Root mean square over `2·reach + 1` samples with triangular weights.
+fn envelope(samples: &[f64], reach: usize) -> Vec<f64> {
+    let weights: Vec<f64> = (0..=2 * reach).map(|i| real(reach + 1 - i.abs_diff(reach))).collect();
+    let total: f64 = weights.iter().sum();
+    (0..samples.len())
+        .map(|centre| {
+            let sum: f64 = weights
+                .iter()
+                .enumerate()
+                .filter_map(|(i, w)| Some(w * samples.get((centre + i).checked_sub(reach)?)?.powi(2)))
+                .sum();
+            (sum / total).sqrt()
+        })
+        .collect()
+}

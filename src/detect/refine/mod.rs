@@ -1,0 +1,100 @@
+//! Times below one sample.
+//!
+//! The recording is first [whitened](whiten), so that hum and rumble do not matter and the noise left is white. Then
+//! each impact is timed by a [constant fraction](fraction) of its own rise, which does not walk with loudness, and by
+//! [correlation](correlation) with the mean of the others, which uses all of its sound.
+
+pub mod correlation;
+pub mod fraction;
+pub mod whiten;
+
+use crate::units::{real, samples_in};
+
+/// How impacts are timed, from fastest to most exact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Timing {
+    /// The detector's own grid: a quarter of a millisecond, and free.
+    Envelope,
+    /// Where the whitened sound first reaches a fixed fraction of its peak.
+    Fraction,
+    /// Best match with the mean impact of the drop.
+    #[default]
+    Correlation,
+}
+
+/// A time with its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Timed {
+    /// Seconds from the first sample to the onset of the sound.
+    pub time_s: f64,
+    /// Standard error in seconds, without what all impacts of the drop share.
+    pub std_s: f64,
+}
+
+/// Sound kept before and after each coarse time, in seconds: the jitter of the detector, the search, and the first
+/// milliseconds of an impact, which hold most of its bandwidth.
+const BEFORE_S: f64 = 3e-3;
+const AFTER_S: f64 = 5e-3;
+
+/// Standard error of a time on the detector's grid, in hops: a uniform error of one hop either way.
+const GRID_ERROR: f64 = 0.58;
+
+/// The whitened sound around one impact.
+#[derive(Debug, Clone)]
+pub struct Window {
+    /// Whitened samples, noise having unit variance.
+    pub samples: Vec<f64>,
+    /// Index in the recording of the first of them.
+    pub start: usize,
+    /// Index in the window nearest to the coarse time.
+    pub coarse: usize,
+}
+
+/// Times the impacts of one drop, given coarse times in ascending order.
+///
+/// The result is in the same order. Where a method fails on an impact (its window is cut by the end of the recording,
+/// or nothing rises in it) the coarse time stays, with the error of the grid.
+#[must_use]
+pub fn refine(samples: &[f32], sample_rate_hz: f64, coarse_s: &[f64], hop_s: f64, timing: Timing) -> Vec<Timed> {
+    let grid: Vec<Timed> = coarse_s.iter().map(|&time_s| Timed { time_s, std_s: GRID_ERROR * hop_s }).collect();
+    if timing == Timing::Envelope || coarse_s.is_empty() {
+        return grid;
+    }
+    let whitener = whiten::Whitener::learn(samples, sample_rate_hz, coarse_s);
+    let windows: Vec<Option<Window>> =
+        coarse_s.iter().map(|&time_s| window(samples, sample_rate_hz, time_s, &whitener)).collect();
+    let rises: Vec<Option<fraction::Rise>> =
+        windows.iter().map(|w| fraction::time(w.as_ref()?, sample_rate_hz)).collect();
+    let in_recording = |w: &Window, position: f64| (real(w.start) + position) / sample_rate_hz;
+    let by_fraction = windows.iter().zip(&rises).zip(&grid).map(|((w, rise), &grid)| match (w, rise) {
+        (Some(w), Some(rise)) => {
+            Timed { time_s: in_recording(w, rise.position), std_s: rise.std / sample_rate_hz }
+        }
+        _ => grid,
+    });
+    let mut timed: Vec<Timed> = by_fraction.collect();
+    if timing == Timing::Correlation {
+        let known: Vec<(usize, &Window, f64)> = windows
+            .iter()
+            .zip(&rises)
+            .enumerate()
+            .filter_map(|(i, (w, rise))| Some((i, w.as_ref()?, rise.as_ref()?.position)))
+            .collect();
+        let pairs: Vec<(&Window, f64)> = known.iter().map(|&(_, w, p)| (w, p)).collect();
+        for (&(i, w, _), matched) in known.iter().zip(correlation::align(&pairs, sample_rate_hz)) {
+            if let Some(m) = matched {
+                timed[i] = Timed { time_s: in_recording(w, m.position), std_s: m.std / sample_rate_hz };
+            }
+        }
+    }
+    timed
+}
+
+fn window(samples: &[f32], sample_rate_hz: f64, time_s: f64, whitener: &whiten::Whitener) -> Option<Window> {
+    let centre = samples_in(time_s, sample_rate_hz);
+    let start = centre.checked_sub(samples_in(BEFORE_S, sample_rate_hz))?;
+    let end = centre + samples_in(AFTER_S, sample_rate_hz);
+    let whitened = whitener.apply(samples, start, end)?;
+    Some(Window { samples: whitened, start, coarse: centre - start })
+}

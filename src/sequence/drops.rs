@@ -1,0 +1,241 @@
+//! The drops of a recording: the best chains that share no event.
+
+use super::reasons::{self, Reason, Rejected};
+use super::seeds::seeds;
+use super::track::{Scene, Step, follow};
+use super::{Event, Settings};
+use crate::Error;
+use crate::units::real;
+
+/// One impact of a drop.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Link {
+    /// Index of the event; none where the impact is inferred from its neighbours.
+    pub event: Option<usize>,
+    /// Seconds from the first sample.
+    pub time_s: f64,
+    /// What the event earned in nats: below 0 it is there only because its neighbours are.
+    pub gain: f64,
+}
+
+/// A drop: one impact after another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Chain {
+    /// The impacts in order of time.
+    pub links: Vec<Link>,
+    /// Evidence that this is a drop and no chance, in nats.
+    pub evidence: f64,
+    /// Strong events between its impacts that are none of them.
+    pub rejected: Vec<Rejected>,
+}
+
+impl Chain {
+    /// Indices of the events that are its impacts.
+    pub(super) fn events(&self) -> impl Iterator<Item = usize> + '_ {
+        self.links.iter().filter_map(|l| l.event)
+    }
+
+    /// How many of its impacts were heard.
+    #[must_use]
+    pub fn heard(&self) -> usize {
+        self.events().count()
+    }
+
+    /// Seconds of the first and last impact.
+    #[must_use]
+    pub fn span_s(&self) -> (f64, f64) {
+        let at = |link: Option<&Link>| link.map_or(0.0, |l| l.time_s);
+        (at(self.links.first()), at(self.links.last()))
+    }
+}
+
+/// What was found among the events.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Found {
+    /// The drops, in order of time.
+    pub drops: Vec<Chain>,
+    /// Strong events outside any drop.
+    pub rejected: Vec<Rejected>,
+    /// How many weaker events were left without a word each.
+    pub weak: usize,
+}
+
+/// Chains sharpened at most, in a short recording and for each second of a long one.
+const MOST_CHAINS: usize = 20;
+const CHAINS_PER_S: f64 = 1.0;
+/// Fewest impacts heard that make a drop: three flights, whose two ratios agree.
+const FEWEST: usize = 4;
+/// Over a whole drop the flights shrink at least to this share: ticking clocks and voices do not.
+const LEAST_SHRINKAGE: f64 = 0.9;
+/// The longest flight of a drop is at least this, in seconds: pulses of a voice are nearer together.
+const LEAST_FLIGHT_S: f64 = 0.025;
+/// No ball keeps more than this share of its speed at every bounce.
+const GREATEST_RATIO: f64 = 0.985;
+
+/// Finds the drops among events in order of time.
+///
+/// # Errors
+/// [`Error::Argument`] if a setting is not positive.
+pub fn find(events: &[Event], settings: &Settings) -> Result<Found, Error> {
+    settings.check()?;
+    if events.is_empty() {
+        return Ok(Found::default());
+    }
+    let scene = Scene::new(events, settings);
+    let mut chains: Vec<Chain> = first_chains(&scene)
+        .iter()
+        .map(|chain| sharpen(&scene, chain))
+        .filter(|chain| is_drop(chain, settings))
+        .collect();
+    chains.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    let mut taken = vec![false; events.len()];
+    let mut drops: Vec<Chain> = Vec::new();
+    for chain in chains {
+        if chain.events().any(|i| taken[i]) || drops.iter().any(|d| reasons::is_echo_of(&chain, d)) {
+            continue;
+        }
+        chain.events().for_each(|i| taken[i] = true);
+        drops.push(chain);
+    }
+    drops.sort_by(|a, b| a.span_s().0.total_cmp(&b.span_s().0));
+    Ok(reasons::explain(&scene, drops, &taken))
+}
+
+/// How often a chain is followed anew with what it taught.
+const SHARPENINGS: usize = 8;
+/// Follows a chain anew, with its own impacts and their echoes no longer counted as clutter.
+fn sharpen(scene: &Scene<'_>, chain: &Chain) -> Chain {
+    let mut chain = chain.clone();
+    for _ in 0..SHARPENINGS {
+        let Some(seed) = best_seed(&chain) else {
+            return chain;
+        };
+        let explained = reasons::explained(scene, &chain);
+        let clearer = Scene::without(scene.events, scene.settings, &explained);
+        let (steps, evidence) = follow(&clearer, seed);
+        let next = Chain { links: links(&steps), evidence, rejected: Vec::new() };
+        let settled = next.links == chain.links;
+        chain = next;
+        if settled {
+            break;
+        }
+    }
+    chain
+}
+
+/// The three neighbouring impacts, all heard, that earned most.
+fn best_seed(chain: &Chain) -> Option<[usize; 3]> {
+    chain
+        .links
+        .windows(3)
+        .filter_map(|w| {
+            let events = [w[0].event?, w[1].event?, w[2].event?];
+            Some((events, w.iter().map(|l| l.gain).sum::<f64>()))
+        })
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map(|(events, _)| events)
+}
+
+/// Chains that may be drops, each from the most promising of its seeds, the most evident of those that share events.
+fn first_chains(scene: &Scene<'_>) -> Vec<Chain> {
+    let mut chains: Vec<Chain> = Vec::new();
+    // Where in the chains found so far an event stands: a seed that is part of a chain would only find it again.
+    let mut places: Vec<Vec<(usize, usize)>> = vec![Vec::new(); scene.events.len()];
+    for seed in seeds(scene) {
+        let known = places[seed[0]]
+            .iter()
+            .any(|&(chain, place)| (1..3).all(|k| places[seed[k]].contains(&(chain, place + k))));
+        if known {
+            continue;
+        }
+        let (steps, evidence) = follow(scene, seed);
+        for (place, step) in steps.iter().enumerate() {
+            if let Some(event) = step.event {
+                places[event].push((chains.len(), place));
+            }
+        }
+        chains.push(Chain {
+            links: links(&steps),
+            evidence,
+            rejected: Vec::new(),
+        });
+    }
+        chains.retain(|c| c.heard() >= FEWEST);
+    chains.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    // A chain that shares most of its events with a better one would be sharpened into the same drop.
+    let mut known = vec![false; scene.events.len()];
+    chains.retain(|c| {
+        let shared = c.events().filter(|&i| known[i]).count();
+        let new = 2 * shared < c.heard();
+        if new {
+            c.events().for_each(|i| known[i] = true);
+        }
+        new
+    });
+    chains.truncate(MOST_CHAINS.max(crate::units::samples_in(scene.ln_duration.exp(), CHAINS_PER_S)));
+    chains
+}
+
+fn is_drop(chain: &Chain, settings: &Settings) -> bool {
+    
+    let flights: Vec<f64> = chain
+        .links
+        .windows(2)
+        .map(|w| w[1].time_s - w[0].time_s)
+        .collect();
+    let (Some(&first), Some(&last)) = (flights.first(), flights.last()) else {
+        return false;
+    };
+    let ratio = (last / first).powf(1.0 / real((flights.len() - 1).max(1)));
+    chain.heard() >= FEWEST && chain.evidence >= settings.least_evidence
+        && last <= LEAST_SHRINKAGE * first
+        && first >= LEAST_FLIGHT_S
+        && ratio <= GREATEST_RATIO
+}
+
+/// Puts inferred impacts where their neighbours want them: the flights between two heard impacts shrink evenly.
+fn links(steps: &[Step]) -> Vec<Link> {
+    let mut links: Vec<Link> = steps
+        .iter()
+        .map(|s| Link {
+            event: s.event,
+            time_s: s.time_s,
+            gain: s.gain,
+        })
+        .collect();
+    let heard: Vec<usize> = (0..links.len())
+        .filter(|&i| links[i].event.is_some())
+        .collect();
+    for pair in heard.windows(2).filter(|p| p[1] - p[0] > 1) {
+        let flight = |k: usize| (links[k].time_s - links[k - 1].time_s).abs();
+        // The mean ratio of the flights just outside the gap, where there are any.
+        let ratio = match (pair[0] > 0, pair[1] + 1 < links.len()) {
+            (true, true) => {
+                (flight(pair[1] + 1) / flight(pair[0])).powf(1.0 / real(pair[1] + 1 - pair[0]))
+            }
+            _ => 1.0,
+        };
+        let weights: Vec<f64> = (pair[0]..pair[1])
+            .scan(1.0, |w, _| {
+                *w *= ratio;
+                Some(*w)
+            })
+            .collect();
+        let span = links[pair[1]].time_s - links[pair[0]].time_s;
+        let total: f64 = weights.iter().sum();
+        let mut time_s = links[pair[0]].time_s;
+        for (link, weight) in links[pair[0] + 1..pair[1]].iter_mut().zip(&weights) {
+            time_s += span * weight / total;
+            link.time_s = time_s;
+        }
+    }
+    links
+}
+
+/// An event's reason for being left out, with its time.
+pub(super) fn reject(event: &Event, reason: Reason) -> Rejected {
+    Rejected {
+        time_s: event.time_s,
+        reason,
+    }
+}

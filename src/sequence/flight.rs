@@ -1,0 +1,185 @@
+//! What is known of the next flight, given the flights so far.
+
+use super::Settings;
+use crate::units::real;
+
+/// A straight line for ln of the flights' ratios, kept as a Kalman filter of two states with its own scatter.
+///
+/// # Formula
+/// ```text
+/// ln(T_{i+1} / T_i) = ρ − κ·T_i² + noise
+/// ```
+/// ρ is ln e at low speed and wanders a little from bounce to bounce (e depends on speed); κ is the drag of the air,
+/// which grows with the square of the speed and so of the flight (0.17 s⁻² for a ping-pong ball, nearly 0 for steel).
+/// The noise is the bounce's own scatter and the jitter of the times. The scatter is learnt from the last few bounces,
+/// because a ball that starts to spin or reaches a worse spot scatters tenfold; so a deviation is Student's and not
+/// normal, and a stray one teaches little.
+#[derive(Debug, Clone, Copy)]
+pub struct FlightLaw {
+    rho: f64,
+    kappa: f64,
+    var_rho: f64,
+    var_kappa: f64,
+    covariance: f64,
+    scatter: f64,
+}
+
+/// ln e before any flight is known: e about 0.82, and with a spread that covers 0.35 to 0.99.
+const RHO: (f64, f64) = (-0.2, 0.35);
+/// Drag before any flight is known, s⁻²: from none to twice that of a ping-pong ball.
+const KAPPA: (f64, f64) = (0.05, 0.1);
+/// How much ln e wanders from one bounce to the next.
+const WANDER: f64 = 3e-3;
+/// Share of the newest bounce in the scatter: a memory of the last four or five.
+const NEWEST_SHARE: f64 = 0.2;
+/// Range of the scatter that is believed: a few flights may agree by chance, and what scatters more is no ball.
+const SCATTER: (f64, f64) = (3e-3, 0.05);
+/// A match farther off than this many standard deviations is none.
+pub(super) const GATE: f64 = 6.0;
+
+/// What is expected of ln(T'/T).
+#[derive(Debug, Clone, Copy)]
+pub struct Expected {
+    /// The expected value.
+    pub mean: f64,
+    /// Its variance by the uncertainty of the law itself.
+    pub law: f64,
+    /// Its variance by the scatter of one bounce.
+    pub scatter: f64,
+    /// Its variance by the jitter of the times.
+    pub jitter: f64,
+}
+
+impl Expected {
+    /// The variance of all causes together.
+    #[must_use]
+    pub fn variance(&self) -> f64 {
+        self.law + self.scatter + self.jitter
+    }
+
+    /// ln of the density of a deviation from the mean: Student's with four degrees of freedom,
+    /// `3/(8σ) · (1 + d²/(4σ²))^(−5/2)`.
+    #[must_use]
+    pub fn ln_density(&self, deviation: f64) -> f64 {
+        let variance = self.variance();
+        -2.5 * (0.25 * deviation * deviation / variance).ln_1p() + 0.375_f64.ln() - 0.5 * variance.ln()
+    }
+}
+
+impl FlightLaw {
+    /// What holds for balls at large.
+    #[must_use]
+    pub const fn prior(settings: &Settings) -> Self {
+        Self {
+            rho: RHO.0,
+            kappa: KAPPA.0,
+            var_rho: RHO.1 * RHO.1,
+            var_kappa: KAPPA.1 * KAPPA.1,
+            covariance: 0.0,
+            scatter: settings.bounce_scatter,
+        }
+    }
+
+    /// ln e at low speed, as far as it is known.
+    #[must_use]
+    pub const fn ln_restitution(&self) -> f64 {
+        self.rho
+    }
+
+    /// The same law with the scatter of balls at large: what follows may lie far from what was learnt last.
+    #[must_use]
+    pub const fn at_large(mut self, settings: &Settings) -> Self {
+        self.scatter = settings.bounce_scatter;
+        self
+    }
+
+    /// What to expect of `ln(later/earlier)` where the last `unheard` impacts between them are only inferred.
+    #[must_use]
+    pub fn expect(&self, earlier_s: f64, later_s: f64, unheard: usize, settings: &Settings) -> Expected {
+        let h = -earlier_s * earlier_s;
+        let jitter = settings.timing_jitter_s * settings.timing_jitter_s;
+        Expected {
+            mean: self.rho + self.kappa * h,
+            law: self.var_rho + 2.0 * h * self.covariance + h * h * self.var_kappa,
+            // An impact that is only inferred may be off by the scatter of its flight, in both flights that it ends.
+            scatter: self.scatter * self.scatter * (1.0 + 4.0 * real(unheard)),
+            // The flights share the impact between them, so its jitter counts in both:
+            // ln T' − ln T moves by ε₂/T' − ε₁(1/T' + 1/T) + ε₀/T.
+            jitter: jitter * (earlier_s.powi(-2) + later_s.powi(-2) + (1.0 / earlier_s + 1.0 / later_s).powi(2)),
+        }
+    }
+
+    /// The flight after one of `earlier_s` seconds.
+    #[must_use]
+    pub fn next_s(&self, earlier_s: f64) -> f64 {
+        earlier_s * (self.rho - self.kappa * earlier_s * earlier_s).exp()
+    }
+
+    /// The flight before one of `later_s` seconds: the fixed point of `earlier = later·exp(−(ρ − κ·earlier²))`.
+    #[must_use]
+    pub fn previous_s(&self, later_s: f64) -> f64 {
+        let mut earlier = later_s * (-self.rho).exp();
+        for _ in 0..3 {
+            // Drag lengthens the flight before by at most a factor of two here, or the step would run away.
+            earlier = later_s * (-self.rho + (self.kappa * earlier * earlier).min(0.7)).exp();
+        }
+        earlier
+    }
+
+    /// Learns from one ratio; from a stray one less, as Student's distribution weighs it.
+    pub fn learn(&mut self, earlier_s: f64, later_s: f64, unheard: usize, settings: &Settings) {
+        let expected = self.expect(earlier_s, later_s, unheard, settings);
+        let deviation = (later_s / earlier_s).ln() - expected.mean;
+        let squared = deviation * deviation;
+        let weight = 5.0 / (4.0 + squared / expected.variance());
+        let h = -earlier_s * earlier_s;
+        let (gain_rho, gain_kappa) = (self.var_rho + h * self.covariance, self.covariance + h * self.var_kappa);
+        let variance = expected.law + (expected.scatter + expected.jitter) / weight;
+        self.rho += gain_rho / variance * deviation;
+        self.kappa += gain_kappa / variance * deviation;
+        self.var_rho += WANDER * WANDER - gain_rho * gain_rho / variance;
+        self.covariance -= gain_rho * gain_kappa / variance;
+        self.var_kappa -= gain_kappa * gain_kappa / variance;
+        // Of the deviation, the bounce owns the share that its variance has.
+        let own = squared * expected.scatter / expected.variance();
+        let scatter = (1.0 - NEWEST_SHARE) * self.scatter * self.scatter + NEWEST_SHARE * own;
+        self.scatter = scatter.sqrt().clamp(SCATTER.0, SCATTER.1);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_law_taught_by_a_ball_with_drag_knows_its_next_and_previous_flight() {
+        let settings = Settings::default();
+        let (e, kappa) = (0.94_f64, 0.15);
+        let mut flights = vec![0.6];
+        for _ in 0..20 {
+            let t = flights[flights.len() - 1];
+            flights.push(t * e * (-kappa * t * t).exp());
+        }
+        let mut law = FlightLaw::prior(&settings);
+        for pair in flights.windows(2) {
+            law.learn(pair[0], pair[1], 0, &settings);
+        }
+        assert!((law.ln_restitution() - e.ln()).abs() < 0.005, "{law:?}");
+        for pair in flights.windows(2).rev().take(10) {
+            assert!((law.next_s(pair[0]) / pair[1] - 1.0).abs() < 0.01);
+            assert!((law.previous_s(pair[1]) / pair[0] - 1.0).abs() < 0.01);
+        }
+    }
+
+    #[test]
+    fn a_wild_bounce_moves_the_law_little() {
+        let settings = Settings::default();
+        let mut law = FlightLaw::prior(&settings);
+        for _ in 0..10 {
+            law.learn(0.3, 0.27, 0, &settings);
+        }
+        let before = law.ln_restitution();
+        law.learn(0.3, 0.27 * 1.2, 0, &settings);
+        assert!((law.ln_restitution() - before).abs() < 0.02);
+    }
+}

@@ -1,0 +1,71 @@
+//! Which candidates are the impacts of a drop: the chain whose flights shrink as those of a bouncing ball do.
+//!
+//! [`seeds`] proposes three candidates, [`track`] follows the flights from there both ways, [`clutter`] says how much
+//! each match is worth, [`drops`] chooses among the chains found, [`reasons`] says why the rest was left out.
+
+pub mod clutter;
+pub mod drops;
+pub mod flight;
+pub mod reasons;
+pub mod seeds;
+pub mod track;
+
+pub use drops::{Chain, Found, Link, find};
+pub use reasons::{Reason, Rejected};
+
+use crate::Error;
+
+/// What is known of balls before listening. Defaults suit drops from centimetres to metres.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Settings {
+    /// Longest flight followed, in seconds. Default 2: a rebound of 5 m.
+    pub longest_flight_s: f64,
+    /// Shortest flight followed, in seconds. Default 4 ms: impacts nearer than that are one sound.
+    pub shortest_flight_s: f64,
+    /// Relative scatter of one flight about the trend, before the drop's own is learnt. Default 0.01: twice that of a
+    /// ping-pong ball.
+    pub bounce_scatter: f64,
+    /// Jitter of a candidate's time, in seconds. Default 0.15 ms: half a hop of the detector.
+    pub timing_jitter_s: f64,
+    /// Evidence a chain needs to be a drop, in nats. Default 12: chance makes one in e¹² recordings.
+    pub least_evidence: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            longest_flight_s: 2.0,
+            shortest_flight_s: 4e-3,
+            bounce_scatter: 0.01,
+            timing_jitter_s: 0.15e-3,
+            least_evidence: 12.0,
+        }
+    }
+}
+
+impl Settings {
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        for (name, value) in [
+            ("longest_flight_s", self.longest_flight_s),
+            ("shortest_flight_s", self.shortest_flight_s),
+            ("bounce_scatter", self.bounce_scatter),
+            ("timing_jitter_s", self.timing_jitter_s),
+            ("least_evidence", self.least_evidence),
+        ] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(Error::argument(name, value, "a positive number"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A moment at which something may have struck.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// Seconds from the first sample.
+    pub time_s: f64,
+    /// Evidence for it, in nats; only its rank among its neighbours matters here.
+    pub strength: f64,
+}

@@ -1,0 +1,191 @@
+//! Why an event is no impact of a drop.
+
+use super::drops::{Chain, Found, reject};
+use super::track::Scene;
+use crate::units::real;
+
+/// Why a strong event is no impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Reason {
+    /// It follows most impacts at the same delay: the sound came back from a wall.
+    Echo {
+        /// The delay in seconds.
+        delay_s: f64,
+    },
+    /// It is too near an impact to be another.
+    Near {
+        /// Seconds from that impact, negative before it.
+        offset_s: f64,
+    },
+    /// It lies between two impacts and does not fit the shrinking flights.
+    BetweenImpacts,
+    /// No drop starts or goes on here.
+    NoSequence,
+}
+
+/// A strong event that is no impact.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rejected {
+    /// Seconds from the first sample.
+    pub time_s: f64,
+    /// Why.
+    pub reason: Reason,
+}
+
+/// An echo's delay is constant to this many seconds.
+const DELAY_TOLERANCE_S: f64 = 0.6e-3;
+/// Longest delay that is looked for: 17 m to a wall.
+const LONGEST_DELAY_S: f64 = 0.1;
+/// An echo follows at least this share of the impacts.
+const ECHO_SHARE: f64 = 0.3;
+/// Nearer to an impact than this, an event belongs to its sound.
+const NEAR_S: f64 = 5e-3;
+/// How many events outside the drops are named, the strongest; the rest is counted.
+const NAMED: usize = 50;
+/// A drop's rejected events are named from this share of its impacts' median strength on.
+const NOTABLE_SHARE: f64 = 0.3;
+
+/// Whether a chain is the echo of another: each of its impacts follows one of the other's at the same delay.
+#[must_use]
+pub fn is_echo_of(chain: &Chain, direct: &Chain) -> bool {
+    let mut delays: Vec<f64> = chain
+        .links
+        .iter()
+        .filter_map(|l| {
+            let before = direct
+                .links
+                .partition_point(|d| d.time_s <= l.time_s)
+                .checked_sub(1)?;
+            Some(l.time_s - direct.links[before].time_s)
+        })
+        .collect();
+    if 2 * delays.len() < chain.links.len() {
+        return false;
+    }
+    delays.sort_by(f64::total_cmp);
+    let median = delays[delays.len() / 2];
+    let same = delays
+        .iter()
+        .filter(|&d| (d - median).abs() < DELAY_TOLERANCE_S)
+        .count();
+    median < LONGEST_DELAY_S && 2 * same > chain.links.len()
+}
+
+/// Which events a chain explains: its impacts and their echoes.
+#[must_use]
+pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<bool> {
+    let mut explained = vec![false; scene.events.len()];
+    chain.events().for_each(|i| explained[i] = true);
+    let echoes = echo_delays(scene, chain, &explained);
+    for link in &chain.links {
+        for i in scene.between(link.time_s, link.time_s + LONGEST_DELAY_S) {
+            let delay = scene.events[i].time_s - link.time_s;
+            explained[i] |= echoes.iter().any(|d| (delay - d).abs() < DELAY_TOLERANCE_S);
+        }
+    }
+    explained
+}
+
+/// Gives every strong event that is no impact its reason.
+#[must_use]
+pub fn explain(scene: &Scene<'_>, mut drops: Vec<Chain>, taken: &[bool]) -> Found {
+    let mut named = vec![false; taken.len()];
+    for drop in &mut drops {
+        let echoes = echo_delays(scene, drop, taken);
+        let least = NOTABLE_SHARE * median_strength(scene, drop);
+        let (start_s, end_s) = drop.span_s();
+        for i in scene.between(start_s - NEAR_S, end_s + LONGEST_DELAY_S) {
+            if taken[i] || scene.events[i].strength < least {
+                continue;
+            }
+            let event = &scene.events[i];
+            if let Some(reason) = reason_within(drop, event.time_s, &echoes) {
+                named[i] = true;
+                drop.rejected.push(reject(event, reason));
+            }
+        }
+    }
+    let mut outside: Vec<usize> = (0..taken.len())
+        .filter(|&i| !taken[i] && !named[i])
+        .collect();
+    outside.sort_by(|&a, &b| {
+        scene.events[b]
+            .strength
+            .total_cmp(&scene.events[a].strength)
+    });
+    let weak = outside.len().saturating_sub(NAMED);
+    outside.truncate(NAMED);
+    outside.sort_unstable();
+    let rejected = outside
+        .into_iter()
+        .map(|i| reject(&scene.events[i], Reason::NoSequence))
+        .collect();
+    Found {
+        drops,
+        rejected,
+        weak,
+    }
+}
+
+fn reason_within(drop: &Chain, time_s: f64, echoes: &[f64]) -> Option<Reason> {
+    let after = drop.links.partition_point(|l| l.time_s <= time_s);
+    let previous = after.checked_sub(1).map(|i| time_s - drop.links[i].time_s);
+    let next = drop.links.get(after).map(|l| time_s - l.time_s);
+    if let Some(&delay_s) = echoes
+        .iter()
+        .find(|&&d| previous.is_some_and(|p| (p - d).abs() < DELAY_TOLERANCE_S))
+    {
+        return Some(Reason::Echo { delay_s });
+    }
+    let nearest = [previous, next]
+        .into_iter()
+        .flatten()
+        .min_by(|a, b| a.abs().total_cmp(&b.abs()));
+    match nearest {
+        Some(offset_s) if offset_s.abs() < NEAR_S => Some(Reason::Near { offset_s }),
+        _ if previous.is_some() && next.is_some() => Some(Reason::BetweenImpacts),
+        _ => None,
+    }
+}
+
+/// Delays at which something follows many of the impacts.
+fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: &[bool]) -> Vec<f64> {
+    let mut delays: Vec<f64> = Vec::new();
+    for link in &drop.links {
+        let window = scene.between(
+            link.time_s + DELAY_TOLERANCE_S,
+            link.time_s + LONGEST_DELAY_S,
+        );
+        delays.extend(
+            window
+                .filter(|&i| !taken[i])
+                .map(|i| scene.events[i].time_s - link.time_s),
+        );
+    }
+    delays.sort_by(f64::total_cmp);
+    let needed = ECHO_SHARE * real(drop.links.len());
+    let mut echoes = Vec::new();
+    let mut first = 0;
+    while first < delays.len() {
+        let end = delays.partition_point(|&d| d < delays[first] + DELAY_TOLERANCE_S);
+        if real(end - first) >= needed.max(3.0) {
+            echoes.push(delays[first + (end - first) / 2]);
+            first = end;
+        } else {
+            first += 1;
+        }
+    }
+    echoes
+}
+
+fn median_strength(scene: &Scene<'_>, drop: &Chain) -> f64 {
+    let mut strengths: Vec<f64> = drop
+        .links
+        .iter()
+        .filter_map(|l| l.event)
+        .map(|i| scene.events[i].strength)
+        .collect();
+    strengths.sort_by(f64::total_cmp);
+    strengths.get(strengths.len() / 2).copied().unwrap_or(0.0)
+}

@@ -1,0 +1,268 @@
+//! Following a drop from three of its impacts, forwards and backwards in time.
+
+use super::clutter::Clutter;
+use super::flight::{FlightLaw, GATE};
+use super::{Event, Settings};
+
+/// Hypotheses kept at each step: enough for an echo, a knock and a silence to compete with the true impact.
+const BEAM: usize = 12;
+/// Nats a step must earn: under chance the best match in a window earns about one, so a chain of chance events loses.
+const STEP_COST: f64 = 3.5;
+/// Nats lost for an expected impact that nobody hears, where impacts are faint …
+const SILENCE_COST: f64 = 2.0;
+/// … which is below this strength; among louder ones a silence is less likely by the square of their strength.
+const FAINT: f64 = 10.0;
+/// Impacts in a row that may be unheard.
+const LONGEST_SILENCE: usize = 2;
+/// No flight is longer than the one before, up to scatter.
+const GROWTH: f64 = 1.03;
+/// No flight is shorter than this share of the one before.
+const SHRINKAGE: f64 = 0.2;
+/// Spread of ln strength from one impact to the next; the detector's strengths vary by a factor of two.
+const LOUDNESS_SPREAD: f64 = 0.7;
+/// Share of the newest impact in the mean loudness.
+const NEWEST_SHARE: f64 = 0.3;
+/// An impact is sought at most this share of a flight from where it is expected, however little is known.
+const WIDEST_WINDOW: f64 = 0.25;
+
+/// Everything that tracking looks at and does not change.
+#[derive(Debug)]
+pub struct Scene<'a> {
+    /// The events in order of time.
+    pub events: &'a [Event],
+    /// ln of the rate of events at least as strong as each, per second.
+    pub ln_rates: Vec<f64>,
+    /// ln of the recording's length in seconds.
+    pub ln_duration: f64,
+    /// What is known of balls.
+    pub settings: &'a Settings,
+}
+
+impl<'a> Scene<'a> {
+    /// Prepares the rates of all events.
+    #[must_use]
+    pub fn new(events: &'a [Event], settings: &'a Settings) -> Self {
+        Self::without(events, settings, &vec![false; events.len()])
+    }
+
+    /// Prepares the rates as they are without the events that are explained already.
+    #[must_use]
+    pub fn without(events: &'a [Event], settings: &'a Settings, explained: &[bool]) -> Self {
+        let clutter = Clutter::new(events, explained);
+        Self {
+            ln_rates: events.iter().map(|e| clutter.rate_per_s(e).ln()).collect(),
+            ln_duration: clutter.duration_s().ln(),
+            events,
+            settings,
+        }
+    }
+
+    /// Indices of the events in an interval of time.
+    pub(super) fn between(&self, from_s: f64, to_s: f64) -> std::ops::Range<usize> {
+        let first = self.events.partition_point(|e| e.time_s < from_s);
+        let last = self.events.partition_point(|e| e.time_s <= to_s);
+        first..last.max(first)
+    }
+}
+
+/// Which way a chain is extended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Way {
+    Forward,
+    Backward,
+}
+
+/// One impact of a chain: an event, or a time at which one is inferred.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Step {
+    /// The event; none where the impact is inferred.
+    pub event: Option<usize>,
+    /// Seconds from the first sample.
+    pub time_s: f64,
+    /// Nats this step earned.
+    pub gain: f64,
+}
+
+/// A way of continuing a chain.
+#[derive(Debug, Clone, Copy)]
+struct Hypothesis {
+    /// Where in the trail its last step stands; none before the first.
+    last: Option<usize>,
+    law: FlightLaw,
+    /// Time of the last impact and the flight that ended (forward) or began (backward) there.
+    time_s: f64,
+    flight_s: f64,
+        silent: usize,
+    /// Mean of ln strength of the last few impacts.
+    loudness: f64,
+    score: f64,
+}
+
+/// Steps of all hypotheses, each knowing the one before it: pasts are shared, not copied.
+type Trail = Vec<(Option<usize>, Step)>;
+
+/// Extends three impacts both ways and gives the whole chain in order of time, with its evidence in nats.
+#[must_use]
+pub fn follow(scene: &Scene<'_>, seed: [usize; 3]) -> (Vec<Step>, f64) {
+    let t = seed.map(|i| scene.events[i].time_s);
+    let (first, second) = (t[1] - t[0], t[2] - t[1]);
+    let mut law = FlightLaw::prior(scene.settings);
+    let expected = law.expect(first, second, 0, scene.settings);
+    let ratio_density = expected.ln_density((second / first).ln() - expected.mean) - second.ln();
+    law.learn(first, second, 0, scene.settings);
+    // The first impact may be anywhere in the recording, the second anywhere within the longest flight.
+    let gains = [
+        -scene.ln_rates[seed[0]] - scene.ln_duration,
+        -scene.ln_rates[seed[1]] - scene.settings.longest_flight_s.ln(),
+        ratio_density - scene.ln_rates[seed[2]],
+    ];
+    let middle: Vec<Step> = (0..3)
+        .map(|i| Step {
+            event: Some(seed[i]),
+            time_s: t[i],
+            gain: gains[i],
+        })
+        .collect();
+    let loudness = seed.iter().map(|&i| ln_strength(scene, i)).sum::<f64>() / 3.0;
+    let start = Hypothesis { last: None, law, time_s: t[2], flight_s: second, silent: 0, loudness, score: 0.0 };
+    let forward = extend(scene, start, Way::Forward);
+    let mut law_back = law;
+    let late: Vec<f64> = std::iter::once(t[2])
+        .chain(forward.iter().map(|s| s.time_s))
+        .collect();
+    relearn(&mut law_back, second, &late, scene.settings);
+    let start = Hypothesis { law: law_back.at_large(scene.settings), time_s: t[0], flight_s: first, ..start };
+    let backward = extend(scene, start, Way::Backward);
+    let chain: Vec<Step> = backward
+        .into_iter()
+        .rev()
+        .chain(middle)
+        .chain(forward)
+        .collect();
+    let evidence = chain.iter().map(|s| s.gain).sum();
+    (chain, evidence)
+}
+
+/// The flights found forwards sharpen the law before it is used backwards.
+fn relearn(law: &mut FlightLaw, mut flight_s: f64, times_s: &[f64], settings: &Settings) {
+    for pair in times_s.windows(2) {
+        let next = pair[1] - pair[0];
+        law.learn(flight_s, next, 0, settings);
+        flight_s = next;
+    }
+}
+
+fn ln_strength(scene: &Scene<'_>, event: usize) -> f64 {
+    scene.events[event].strength.max(f64::MIN_POSITIVE).ln()
+}
+
+fn extend(scene: &Scene<'_>, start: Hypothesis, way: Way) -> Vec<Step> {
+    let mut trail = Trail::new();
+    let mut best = start;
+    let mut beam = vec![start];
+    let mut next = Vec::new();
+    while !beam.is_empty() {
+        for hypothesis in &beam {
+            hypothesis.go_on(scene, way, &mut trail, &mut next);
+        }
+        next.sort_by(|a: &Hypothesis, b| b.score.total_cmp(&a.score));
+        beam.clear();
+        for h in next.drain(..) {
+            // Hypotheses at one event with one flight behind them have one future: the better past is enough.
+            let same = |o: &Hypothesis| {
+                (o.time_s - h.time_s).abs() < 1e-9 && (o.flight_s / h.flight_s - 1.0).abs() < 1e-3
+            };
+            if beam.len() < BEAM && !beam.iter().any(same) {
+                beam.push(h);
+            }
+        }
+        let heard = beam.iter().filter(|h| h.silent == 0).max_by(|a, b| a.score.total_cmp(&b.score));
+        if let Some(&leader) = heard.filter(|h| h.score > best.score) {
+            best = leader;
+        }
+    }
+    let mut steps = Vec::new();
+    let mut at = best.last;
+    while let Some(index) = at {
+        steps.push(trail[index].1);
+        at = trail[index].0;
+    }
+    steps.reverse();
+    steps
+}
+
+impl Hypothesis {
+    /// All ways to go on by one impact: heard at each event in the window, or not heard.
+    fn go_on(&self, scene: &Scene<'_>, way: Way, trail: &mut Trail, next: &mut Vec<Self>) {
+        let (flight, sign) = match way {
+            Way::Forward => (self.law.next_s(self.flight_s), 1.0),
+            Way::Backward => (self.law.previous_s(self.flight_s), -1.0),
+        };
+        if flight < scene.settings.shortest_flight_s || flight > 1.2 * scene.settings.longest_flight_s {
+            return;
+        }
+        let (earlier, later) = self.in_order(flight, way);
+        let sd = self.law.expect(earlier, later, self.silent, scene.settings).variance().sqrt();
+        let reach = flight * (GATE * sd).min(WIDEST_WINDOW);
+        let (a, b) = (self.time_s + sign * (flight - reach), self.time_s + sign * (flight + reach));
+        for event in scene.between(a.min(b), a.max(b)) {
+            next.extend(self.heard(scene, way, event, trail));
+        }
+        if self.silent < LONGEST_SILENCE {
+            let mut child = *self;
+            child.flight_s = flight;
+            child.silent += 1;
+            let step = Step { event: None, time_s: self.time_s + sign * flight, gain: -self.silence_cost() };
+            next.push(child.after(step, trail));
+        }
+    }
+
+    fn heard(&self, scene: &Scene<'_>, way: Way, event: usize, trail: &mut Trail) -> Option<Self> {
+        let time_s = scene.events[event].time_s;
+        let flight = (time_s - self.time_s).abs();
+        let (earlier, later) = self.in_order(flight, way);
+        let ratio = later / earlier;
+        let possible = (SHRINKAGE..GROWTH).contains(&ratio)
+            && (scene.settings.shortest_flight_s..scene.settings.longest_flight_s).contains(&flight);
+        if !possible {
+            return None;
+        }
+        let expected = self.law.expect(earlier, later, self.silent, scene.settings);
+        // The density is of ln T; per second it is divided by T.
+        let density = expected.ln_density(ratio.ln() - expected.mean) - flight.ln();
+        // Loudness is not monotone, but an impact much fainter than those around it is more likely to be something else.
+        let fainter = (self.loudness - ln_strength(scene, event)).max(0.0) / LOUDNESS_SPREAD;
+        let gain = density - scene.ln_rates[event] - 0.5 * fainter * fainter - STEP_COST;
+        if gain < -self.silence_cost() {
+            // Silence explains it better.
+            return None;
+        }
+        let mut child = *self;
+        child.law.learn(earlier, later, self.silent, scene.settings);
+        child.flight_s = flight;
+        child.silent = 0;
+        child.loudness += NEWEST_SHARE * (ln_strength(scene, event) - self.loudness);
+        Some(child.after(Step { event: Some(event), time_s, gain }, trail))
+    }
+
+    /// Nats lost for an impact that is expected and not heard.
+    fn silence_cost(&self) -> f64 {
+        SILENCE_COST + 2.0 * (self.loudness - FAINT.ln()).max(0.0)
+    }
+
+    /// The known and the new flight as earlier and later.
+    const fn in_order(&self, flight_s: f64, way: Way) -> (f64, f64) {
+        match way {
+            Way::Forward => (self.flight_s, flight_s),
+            Way::Backward => (flight_s, self.flight_s),
+        }
+    }
+
+    fn after(mut self, step: Step, trail: &mut Trail) -> Self {
+        self.time_s = step.time_s;
+        self.score += step.gain;
+        trail.push((self.last, step));
+        self.last = Some(trail.len() - 1);
+        self
+    }
+}
