@@ -13,6 +13,7 @@
 
 pub mod error;
 pub mod physics;
+pub mod random;
 pub mod units;
 
 pub use error::Error;
