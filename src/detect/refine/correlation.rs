@@ -154,10 +154,10 @@ fn median(mut values: Vec<f64>) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use crate::random::SplitMix64;
 
     /// A damped tone that starts between samples, as a microphone would sample it.
-    fn impact(onset: f64, amplitude: f64, rng: &mut Random) -> Window {
+    fn impact(onset: f64, amplitude: f64, rng: &mut SplitMix64) -> Window {
         let samples = (0..384)
             .map(|i| {
                 let t = real(i) - onset;
@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn times_between_samples_are_found_within_their_errors() {
-        let mut rng = Random::new(1);
+        let mut rng = SplitMix64::new(1);
         let onsets: Vec<f64> = (0..20).map(|i| 144.0 + 0.37 * real(i % 7) + rng.uniform()).collect();
         let windows: Vec<Window> = onsets.iter().map(|&o| impact(o, 60.0, &mut rng)).collect();
         let first: Vec<(&Window, f64)> =
@@ -187,7 +187,7 @@ mod tests {
 
     #[test]
     fn what_resembles_no_other_has_no_match() {
-        let mut rng = Random::new(2);
+        let mut rng = SplitMix64::new(2);
         let mut windows: Vec<Window> = (0..6).map(|_| impact(144.0, 60.0, &mut rng)).collect();
         windows.push(impact(144.0, 0.0, &mut rng));
         let first: Vec<(&Window, f64)> = windows.iter().map(|w| (w, 144.0)).collect();

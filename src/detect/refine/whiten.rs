@@ -96,11 +96,11 @@ fn levinson(correlation: &[f64; ORDER + 1]) -> ([f64; ORDER], f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::random::Random;
+    use crate::random::SplitMix64;
 
     #[test]
     fn coloured_noise_comes_out_white_with_unit_variance() {
-        let mut rng = Random::new(3);
+        let mut rng = SplitMix64::new(3);
         let mut y = 0.0;
         #[expect(clippy::cast_possible_truncation, reason = "test noise")]
         let noise: Vec<f32> = (0..96_000)

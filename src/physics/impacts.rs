@@ -1,0 +1,221 @@
+//! A whole drop, impact by impact, from the closed forms of flight and contact: no time stepping.
+
+use super::{DropSetup, FlightLaw, LinearContact, Rebound, Restitution, RestitutionLaw, Scatter};
+use crate::random::SplitMix64;
+
+/// One impact and the flight that follows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// Moment of touching, from release.
+    pub time_s: f64,
+    /// Speed on touching.
+    pub impact_speed_m_per_s: f64,
+    /// Speed on leaving; 0 if the ball does not leave, or rests by (19).
+    pub rebound_speed_m_per_s: f64,
+    /// From touching to leaving; `None` if the ball does not leave.
+    pub contact_time_s: Option<f64>,
+    /// Greatest height after this impact; 0 if the ball does not get off the surface.
+    pub apex_m: f64,
+    /// From leaving to the next touch; 0 after the last impact of a ball at rest.
+    pub flight_time_s: f64,
+}
+
+impl Impact {
+    /// Ratio of rebound speed to impact speed, 0 where the ball does not leave.
+    #[must_use]
+    pub fn restitution(&self) -> f64 {
+        self.rebound_speed_m_per_s / self.impact_speed_m_per_s
+    }
+}
+
+/// A bounce whose parameters were checked.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Surface {
+    Linear(LinearContact),
+    Given {
+        restitution: RestitutionLaw,
+        contact_time: f64,
+    },
+}
+
+impl Surface {
+    /// Whether the ball ever stops leaving.
+    pub(super) fn brings_to_rest(&self) -> bool {
+        match self {
+            Self::Linear(contact) => contact.oscillator().damping_ratio() > 0.0,
+            Self::Given { contact_time, .. } => *contact_time > 0.0,
+        }
+    }
+}
+
+/// The moment and speed of the next touch.
+#[derive(Debug, Clone, Copy)]
+struct Touch {
+    time: Clock,
+    speed: f64,
+}
+
+/// How a ball leaves: speed, contact time and how deep below zero displacement.
+struct Departure {
+    speed: f64,
+    contact_time: f64,
+    depth: f64,
+}
+
+/// Iterator over the impacts of a drop, made by [`DropSetup::impacts`].
+#[derive(Debug, Clone)]
+pub struct Impacts {
+    flight: FlightLaw,
+    surface: Surface,
+    scatter: Option<(Scatter, SplitMix64)>,
+    shortest_flight: f64,
+    left: usize,
+    next: Option<Touch>,
+}
+
+impl Iterator for Impacts {
+    type Item = Impact;
+
+    fn next(&mut self) -> Option<Impact> {
+        let touch = self.next.take()?;
+        self.left -= 1;
+        let departure = self.depart(touch.speed);
+        let mut impact = Impact {
+            time_s: touch.time.s(),
+            impact_speed_m_per_s: touch.speed,
+            rebound_speed_m_per_s: 0.0,
+            contact_time_s: departure.as_ref().map(|leaving| leaving.contact_time),
+            apex_m: 0.0,
+            flight_time_s: 0.0,
+        };
+        let Some(leaving) = departure.filter(|leaving| leaving.speed > 0.0) else {
+            return Some(impact);
+        };
+        impact.rebound_speed_m_per_s = leaving.speed;
+        if let Some((hop, landing)) = self.fly(&leaving) {
+            (impact.apex_m, impact.flight_time_s) = hop;
+            if self.left > 0 && impact.flight_time_s >= self.shortest_flight {
+                let time = touch.time.plus(leaving.contact_time);
+                self.next = Some(Touch {
+                    time: time.plus(impact.flight_time_s),
+                    speed: landing,
+                });
+            }
+        }
+        Some(impact)
+    }
+}
+
+impl Impacts {
+    /// Starts with the fall. Everything in the setup was checked.
+    pub(super) fn new(setup: &DropSetup, surface: Surface) -> Self {
+        let (time, speed) = setup.flight.fall_from(setup.height_m);
+        let with_stream = |scatter: Scatter| (scatter, SplitMix64::new(scatter.seed));
+        Self {
+            flight: setup.flight,
+            surface,
+            scatter: setup.scatter.map(with_stream),
+            shortest_flight: setup.shortest_flight_s.unwrap_or(0.0),
+            left: setup.most_impacts.unwrap_or(usize::MAX),
+            next: Some(Touch {
+                time: Clock::at(time),
+                speed,
+            }),
+        }
+    }
+
+    /// How the ball leaves after touching at this speed; `None` if it stays.
+    fn depart(&mut self, speed: f64) -> Option<Departure> {
+        match self.surface {
+            Surface::Linear(contact) => match contact.rebound_at(speed) {
+                Rebound::Stays => None,
+                Rebound::Leaves(leaving) => Some(Departure {
+                    speed: self.scattered(leaving.speed_m_per_s, speed),
+                    contact_time: leaving.contact_time_s,
+                    depth: -leaving.position_m,
+                }),
+            },
+            Surface::Given {
+                restitution,
+                contact_time,
+            } => {
+                let nominal = restitution.at_trusted(speed);
+                let rebound = self.scattered(nominal.value() * speed, speed);
+                let rests = contact_time > 0.0
+                    && self.flight.rise_at(rebound).1
+                        <= rest_depth(nominal, contact_time, &self.flight);
+                Some(Departure {
+                    speed: if rests { 0.0 } else { rebound },
+                    contact_time,
+                    depth: 0.0,
+                })
+            }
+        }
+    }
+
+    /// A rebound speed with the scatter of one bounce; never faster than the impact, so no bounce makes energy.
+    fn scattered(&mut self, rebound: f64, impact: f64) -> f64 {
+        match &mut self.scatter {
+            None => rebound,
+            Some((scatter, random)) => {
+                let change = scatter.ln_restitution_std * random.normal();
+                (rebound * libm::exp(change)).min(impact)
+            }
+        }
+    }
+
+    /// Apex and flight time, and landing speed; `None` where the ball does not get off the surface.
+    fn fly(&self, leaving: &Departure) -> Option<((f64, f64), f64)> {
+        if leaving.depth == 0.0 {
+            let hop = self.flight.hop_at(leaving.speed);
+            return Some(((hop.apex_m, hop.time_s), hop.landing_speed_m_per_s));
+        }
+        let (rise_time, height) = self.flight.rise_at(leaving.speed);
+        let apex = height - leaving.depth;
+        if apex <= 0.0 {
+            return None;
+        }
+        let (fall_time, landing) = self.flight.fall_from(apex);
+        Some(((apex, rise_time + fall_time), landing))
+    }
+}
+
+/// How deep the ball with this restitution and contact time is pressed in at rest: (5) with (16).
+fn rest_depth(restitution: Restitution, contact_time: f64, flight: &FlightLaw) -> f64 {
+    let frequency = restitution.pi_norm() / contact_time;
+    flight.gravity_m_per_s2() / frequency / frequency
+}
+
+/// A sum of durations that carries its rounding error along (Neumaier), so that a drop of a million bounces ends on
+/// time.
+#[derive(Debug, Clone, Copy)]
+struct Clock {
+    sum: f64,
+    rest: f64,
+}
+
+impl Clock {
+    const fn at(time: f64) -> Self {
+        Self {
+            sum: time,
+            rest: 0.0,
+        }
+    }
+
+    fn plus(self, duration: f64) -> Self {
+        let sum = self.sum + duration;
+        let lost = if self.sum >= duration {
+            (self.sum - sum) + duration
+        } else {
+            (duration - sum) + self.sum
+        };
+        Self {
+            sum,
+            rest: self.rest + lost,
+        }
+    }
+
+    fn s(self) -> f64 {
+        self.sum + self.rest
+    }
+}
