@@ -11,11 +11,16 @@
     )
 )]
 
+pub mod analysis;
+pub mod cli;
 pub mod detect;
 pub mod error;
+pub mod fit;
 pub mod physics;
 pub mod random;
+pub mod report;
 pub mod sequence;
+pub mod synth;
 pub mod units;
 pub mod wav;
 

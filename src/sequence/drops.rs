@@ -14,9 +14,14 @@ pub struct Link {
     pub event: Option<usize>,
     /// Seconds from the first sample.
     pub time_s: f64,
-    /// What the event earned in nats: below 0 it is there only because its neighbours are.
+        /// What the event earned in nats.
     pub gain: f64,
+    /// Whether chance offers events as strong so often here that this one may be none of the ball's.
+    pub doubtful: bool,
 }
+
+/// An impact is doubtful where chance would offer its like this often within the reach of its match.
+const DOUBTFUL_CHANCE: f64 = 0.2;
 
 /// A drop: one impact after another.
 #[derive(Debug, Clone, PartialEq)]
@@ -197,11 +202,7 @@ fn is_drop(chain: &Chain, settings: &Settings) -> bool {
 fn links(steps: &[Step]) -> Vec<Link> {
     let mut links: Vec<Link> = steps
         .iter()
-        .map(|s| Link {
-            event: s.event,
-            time_s: s.time_s,
-            gain: s.gain,
-        })
+        .map(|s| Link { event: s.event, time_s: s.time_s, gain: s.gain, doubtful: s.chance > DOUBTFUL_CHANCE })
         .collect();
     let heard: Vec<usize> = (0..links.len())
         .filter(|&i| links[i].event.is_some())

@@ -3,31 +3,33 @@
 use super::Settings;
 use crate::units::real;
 
-/// A straight line for ln of the flights' ratios, kept as a Kalman filter of two states with its own scatter.
+/// A line for ln of the flights' ratios, kept as a Kalman filter of three states with its own scatter.
 ///
 /// # Formula
 /// ```text
-/// ln(T_{i+1} / T_i) = ρ − κ·T_i² + noise
+/// ln(T_{i+1} / T_i) = ρ − κ·T_i² + C·(1 − r)/(r·T_i) + noise,   r = exp(ρ − κ·T_i²)
 /// ```
 /// ρ is ln e at low speed and wanders a little from bounce to bounce (e depends on speed); κ is the drag of the air,
-/// which grows with the square of the speed and so of the flight (0.17 s⁻² for a ping-pong ball, nearly 0 for steel).
-/// The noise is the bounce's own scatter and the jitter of the times. The scatter is learnt from the last few bounces,
-/// because a ball that starts to spin or reaches a worse spot scatters tenfold; so a deviation is Student's and not
-/// normal, and a stray one teaches little.
+/// which grows with the square of the speed and so of the flight (0.17 s⁻² for a ping-pong ball, nearly 0 for steel);
+/// C is the part of the contact time that stands in every interval from touch to touch, which slows the shrinking of
+/// the last flights of a soft ball. The noise is the bounce's own scatter and the jitter of the times. The scatter is
+/// learnt from the last few bounces, because a ball that starts to spin or reaches a worse spot scatters tenfold; so
+/// a deviation is Student's and not normal, and a stray one teaches little.
 #[derive(Debug, Clone, Copy)]
 pub struct FlightLaw {
-    rho: f64,
-    kappa: f64,
-    var_rho: f64,
-    var_kappa: f64,
-    covariance: f64,
+    /// ρ, κ and C.
+    state: [f64; STATES],
+    covariance: [[f64; STATES]; STATES],
     scatter: f64,
 }
 
-/// ln e before any flight is known: e about 0.82, and with a spread that covers 0.35 to 0.99.
+const STATES: usize = 3;
+/// ρ before any flight is known: e about 0.82, and with a spread that covers 0.35 to 0.99.
 const RHO: (f64, f64) = (-0.2, 0.35);
-/// Drag before any flight is known, s⁻²: from none to twice that of a ping-pong ball.
+/// κ before any flight is known, s⁻²: from none to twice that of a ping-pong ball.
 const KAPPA: (f64, f64) = (0.05, 0.1);
+/// C before any flight is known, s: from none to the contact of a basketball.
+const CONTACT_S: (f64, f64) = (0.5e-3, 1.5e-3);
 /// How much ln e wanders from one bounce to the next.
 const WANDER: f64 = 3e-3;
 /// Share of the newest bounce in the scatter: a memory of the last four or five.
@@ -69,21 +71,18 @@ impl Expected {
 impl FlightLaw {
     /// What holds for balls at large.
     #[must_use]
-    pub const fn prior(settings: &Settings) -> Self {
-        Self {
-            rho: RHO.0,
-            kappa: KAPPA.0,
-            var_rho: RHO.1 * RHO.1,
-            var_kappa: KAPPA.1 * KAPPA.1,
-            covariance: 0.0,
-            scatter: settings.bounce_scatter,
+    pub fn prior(settings: &Settings) -> Self {
+        let mut covariance = [[0.0; STATES]; STATES];
+        for (i, (_, sd)) in [RHO, KAPPA, CONTACT_S].into_iter().enumerate() {
+            covariance[i][i] = sd * sd;
         }
+        Self { state: [RHO.0, KAPPA.0, CONTACT_S.0], covariance, scatter: settings.bounce_scatter }
     }
 
     /// ln e at low speed, as far as it is known.
     #[must_use]
     pub const fn ln_restitution(&self) -> f64 {
-        self.rho
+        self.state[0]
     }
 
     /// The same law with the scatter of balls at large: what follows may lie far from what was learnt last.
@@ -96,11 +95,11 @@ impl FlightLaw {
     /// What to expect of `ln(later/earlier)` where the last `unheard` impacts between them are only inferred.
     #[must_use]
     pub fn expect(&self, earlier_s: f64, later_s: f64, unheard: usize, settings: &Settings) -> Expected {
-        let h = -earlier_s * earlier_s;
+        let slopes = self.slopes(earlier_s);
         let jitter = settings.timing_jitter_s * settings.timing_jitter_s;
         Expected {
-            mean: self.rho + self.kappa * h,
-            law: self.var_rho + 2.0 * h * self.covariance + h * h * self.var_kappa,
+            mean: dot(&slopes, &self.state),
+            law: dot(&slopes, &self.gains(&slopes)),
             // An impact that is only inferred may be off by the scatter of its flight, in both flights that it ends.
             scatter: self.scatter * self.scatter * (1.0 + 4.0 * real(unheard)),
             // The flights share the impact between them, so its jitter counts in both:
@@ -112,16 +111,17 @@ impl FlightLaw {
     /// The flight after one of `earlier_s` seconds.
     #[must_use]
     pub fn next_s(&self, earlier_s: f64) -> f64 {
-        earlier_s * (self.rho - self.kappa * earlier_s * earlier_s).exp()
+        earlier_s * dot(&self.slopes(earlier_s), &self.state).exp()
     }
 
-    /// The flight before one of `later_s` seconds: the fixed point of `earlier = later·exp(−(ρ − κ·earlier²))`.
+    /// The flight before one of `later_s` seconds, by a few rounds of `earlier = later·exp(−ln ratio(earlier))`.
     #[must_use]
     pub fn previous_s(&self, later_s: f64) -> f64 {
-        let mut earlier = later_s * (-self.rho).exp();
+        let mut earlier = later_s * (-self.state[0]).exp();
         for _ in 0..3 {
+            let ln_ratio = dot(&self.slopes(earlier), &self.state);
             // Drag lengthens the flight before by at most a factor of two here, or the step would run away.
-            earlier = later_s * (-self.rho + (self.kappa * earlier * earlier).min(0.7)).exp();
+            earlier = later_s * (-ln_ratio).min(std::f64::consts::LN_2 - self.state[0]).exp();
         }
         earlier
     }
@@ -132,19 +132,36 @@ impl FlightLaw {
         let deviation = (later_s / earlier_s).ln() - expected.mean;
         let squared = deviation * deviation;
         let weight = 5.0 / (4.0 + squared / expected.variance());
-        let h = -earlier_s * earlier_s;
-        let (gain_rho, gain_kappa) = (self.var_rho + h * self.covariance, self.covariance + h * self.var_kappa);
+        let gains = self.gains(&self.slopes(earlier_s));
         let variance = expected.law + (expected.scatter + expected.jitter) / weight;
-        self.rho += gain_rho / variance * deviation;
-        self.kappa += gain_kappa / variance * deviation;
-        self.var_rho += WANDER * WANDER - gain_rho * gain_rho / variance;
-        self.covariance -= gain_rho * gain_kappa / variance;
-        self.var_kappa -= gain_kappa * gain_kappa / variance;
+        for (i, gain) in gains.iter().enumerate() {
+            self.state[i] += gain / variance * deviation;
+            for (j, other) in gains.iter().enumerate() {
+                self.covariance[i][j] -= gain * other / variance;
+            }
+        }
+        self.covariance[0][0] += WANDER * WANDER;
         // Of the deviation, the bounce owns the share that its variance has.
         let own = squared * expected.scatter / expected.variance();
         let scatter = (1.0 - NEWEST_SHARE) * self.scatter * self.scatter + NEWEST_SHARE * own;
         self.scatter = scatter.sqrt().clamp(SCATTER.0, SCATTER.1);
     }
+
+    /// How ln(T'/T) depends on ρ, κ and C.
+    fn slopes(&self, earlier_s: f64) -> [f64; STATES] {
+        let square = earlier_s * earlier_s;
+        let ratio = (self.state[0] - self.state[1] * square).exp();
+        [1.0, -square, (1.0 - ratio) / (ratio * earlier_s)]
+    }
+
+    /// Covariance of the states with what the slopes measure.
+    fn gains(&self, slopes: &[f64; STATES]) -> [f64; STATES] {
+        std::array::from_fn(|i| dot(&self.covariance[i], slopes))
+    }
+}
+
+fn dot(a: &[f64; STATES], b: &[f64; STATES]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

@@ -79,8 +79,19 @@ pub struct Step {
     pub event: Option<usize>,
     /// Seconds from the first sample.
     pub time_s: f64,
-    /// Nats this step earned.
+        /// Nats this step earned.
     pub gain: f64,
+    /// How many events as strong chance would offer near it: within a few hundredths of its flight.
+    pub chance: f64,
+}
+
+/// A share of a flight within which an event would be taken for the impact, both ways together.
+const MATCH_WIDTH: f64 = 0.06;
+
+impl Scene<'_> {
+    fn chance(&self, event: usize, flight_s: f64) -> f64 {
+        self.ln_rates[event].exp() * MATCH_WIDTH * flight_s
+    }
 }
 
 /// A way of continuing a chain.
@@ -117,11 +128,7 @@ pub fn follow(scene: &Scene<'_>, seed: [usize; 3]) -> (Vec<Step>, f64) {
         ratio_density - scene.ln_rates[seed[2]],
     ];
     let middle: Vec<Step> = (0..3)
-        .map(|i| Step {
-            event: Some(seed[i]),
-            time_s: t[i],
-            gain: gains[i],
-        })
+        .map(|i| Step { event: Some(seed[i]), time_s: t[i], gain: gains[i], chance: scene.chance(seed[i], second) })
         .collect();
     let loudness = seed.iter().map(|&i| ln_strength(scene, i)).sum::<f64>() / 3.0;
     let start = Hypothesis { last: None, law, time_s: t[2], flight_s: second, silent: 0, loudness, score: 0.0 };
@@ -212,7 +219,7 @@ impl Hypothesis {
             let mut child = *self;
             child.flight_s = flight;
             child.silent += 1;
-            let step = Step { event: None, time_s: self.time_s + sign * flight, gain: -self.silence_cost() };
+            let step = Step { event: None, time_s: self.time_s + sign * flight, gain: -self.silence_cost(), chance: 1.0 };
             next.push(child.after(step, trail));
         }
     }
@@ -242,7 +249,7 @@ impl Hypothesis {
         child.flight_s = flight;
         child.silent = 0;
         child.loudness += NEWEST_SHARE * (ln_strength(scene, event) - self.loudness);
-        Some(child.after(Step { event: Some(event), time_s, gain }, trail))
+        Some(child.after(Step { event: Some(event), time_s, gain, chance: scene.chance(event, flight) }, trail))
     }
 
     /// Nats lost for an impact that is expected and not heard.

@@ -1,0 +1,123 @@
+//! One drop: its impacts timed and measured, its restitution fitted.
+
+use super::{Settings, Stretch, rejected, warnings};
+use crate::Error;
+use crate::detect::refine::refine;
+use crate::fit::Estimate;
+use crate::fit::flights::{Flights, Impact as Timed};
+use crate::fit::total_time::{self, Missing, TotalTime};
+use crate::report::{Drop, Estimates, Impact, Model, Restitution, Scatter, Status};
+use crate::sequence::{Chain, Link};
+
+/// Times the impacts of a chain and fits them.
+pub(super) fn measure(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings) -> Result<Drop, Error> {
+    let timed = times(stretch, chain, settings);
+    let flights = Flights::between(&timed);
+    let ratio = flights.ratio();
+    let mut warnings = warnings::of_chain(stretch, &timed, chain);
+    let (mut total, mut first_rebound) = (None, None);
+    if let (Some(ratio), Some(height_m)) = (ratio, settings.height_m) {
+        let input = total_time::Drop {
+            impacts: &timed,
+            flights: &flights,
+            restitution: ratio.value,
+            height_m,
+            gravity_m_per_s2: settings.gravity_m_per_s2,
+        };
+        let solved = total_time::solve(&input)?;
+        if !matches!(solved, Err(Missing::FirstImpact { .. })) {
+            first_rebound = total_time::first_rebound(&input);
+        }
+        warnings.extend(warnings::of_total_time(&solved, stretch, &timed));
+        total = solved.ok();
+    }
+    Ok(Drop {
+        bounces: chain.heard(),
+        observed_time_s: timed.last().map_or(0.0, |i| i.time_s) - timed.first().map_or(0.0, |i| i.time_s),
+        total_time_s: total.map(|t| t.total_time_s),
+        restitution: ratio.map(|estimate| Restitution {
+            estimate,
+            at_speed_m_per_s: flights.mean_speed_m_per_s(settings.gravity_m_per_s2),
+            method: "flight_ratio",
+        }),
+        estimates: estimates(ratio, total, first_rebound),
+        scatter: Scatter { timing_std_s: median_std(&timed), bounce_std: flights.scatter() },
+        model: constant_model(ratio),
+        ball: None,
+        evidence_nats: chain.evidence,
+        rejected: chain.rejected.iter().map(rejected).collect(),
+        warnings,
+        impacts: impacts(stretch, chain, &timed, &flights, settings.gravity_m_per_s2),
+    })
+}
+
+/// The heard impacts timed below a sample; those inferred stay where their neighbours put them.
+fn times(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings) -> Vec<Timed> {
+    let heard = |l: &&Link| l.event.is_some();
+    let coarse: Vec<f64> = chain.links.iter().filter(heard).map(|l| l.time_s - stretch.start_s).collect();
+    let refined = refine(stretch.samples, stretch.sample_rate_hz, &coarse, stretch.hop_s, settings.timing);
+    let mut refined = refined.into_iter();
+    let timed = chain.links.iter().map(|link| match link.event.and_then(|_| refined.next()) {
+        Some(t) => Timed { time_s: stretch.start_s + t.time_s, std_s: t.std_s, heard: true },
+        None => Timed { time_s: link.time_s, std_s: 0.0, heard: false },
+    });
+    timed.collect()
+}
+
+fn estimates(ratio: Option<Estimate>, total: Option<TotalTime>, first_rebound: Option<Estimate>) -> Estimates {
+    Estimates {
+        flight_ratio: ratio,
+        eq25: total.and_then(|t| t.eq25),
+        eq30: total.and_then(|t| t.eq30),
+        first_rebound,
+    }
+}
+
+fn constant_model(ratio: Option<Estimate>) -> Model {
+    let mut parameters = serde_json::Map::new();
+    parameters.insert("restitution".to_owned(), ratio.map(|e| e.value).into());
+    Model { selected: "constant", parameters, candidates: vec!["constant".to_owned()] }
+}
+
+fn median_std(timed: &[Timed]) -> Option<f64> {
+    let mut stds: Vec<f64> = timed.iter().filter(|t| t.heard).map(|t| t.std_s).collect();
+    stds.sort_by(f64::total_cmp);
+    stds.get(stds.len() / 2).copied()
+}
+
+fn impacts(stretch: &Stretch<'_>, chain: &Chain, timed: &[Timed], flights: &Flights, gravity: f64) -> Vec<Impact> {
+    let status = |link: &Link| match (link.event, link.doubtful) {
+        (None, _) => Status::Inferred,
+        (Some(_), true) => Status::Doubtful,
+        (Some(_), false) => Status::Heard,
+    };
+    chain
+        .links
+        .iter()
+        .zip(timed)
+        .enumerate()
+        .map(|(i, (link, t))| {
+            let flight = flights.after(i);
+            let before = i.checked_sub(1).and_then(|i| flights.after(i));
+            Impact {
+                time_s: t.time_s,
+                time_std_s: t.heard.then_some(t.std_s),
+                level_db: if t.heard { level_db(stretch, t.time_s) } else { None },
+                interval_s: flight,
+                ratio: flight.zip(before).map(|(now, before)| now / before),
+                rebound_height_m: flight.map(|t| gravity * t * t / 8.0),
+                status: status(link),
+            }
+        })
+        .collect()
+}
+
+/// The sound of an impact is at its loudest within this many seconds before and after its onset.
+const LOUDEST_WITHIN_S: (f64, f64) = (0.5e-3, 4e-3);
+
+/// Peak of the samples of an impact in dB below full scale; none in silence.
+fn level_db(stretch: &Stretch<'_>, time_s: f64) -> Option<f64> {
+    let sound = stretch.between(time_s - LOUDEST_WITHIN_S.0, time_s + LOUDEST_WITHIN_S.1);
+    let peak = sound.iter().map(|x| x.abs()).fold(0.0, f32::max);
+    (peak > 0.0).then(|| 20.0 * f64::from(peak).log10())
+}

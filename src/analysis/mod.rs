@@ -1,0 +1,181 @@
+//! The whole way from samples to drops: detect, sequence, refine, fit.
+
+mod drop;
+mod warnings;
+
+use crate::Error;
+use crate::detect::refine::Timing;
+use crate::detect::{self, Candidate};
+use crate::report::{Analysis, Drop, Rejected};
+use crate::sequence::{self, Event, Reason};
+use crate::units::{real, samples_in};
+
+/// What is known beforehand and how to listen.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Settings {
+    /// From the ball's lowest point to the surface at release, in metres, if known. It applies to every drop.
+    pub height_m: Option<f64>,
+    /// Gravity in m/s². Default 9.81.
+    pub gravity_m_per_s2: f64,
+    /// Listen from here, in seconds. Default: the start.
+    pub start_s: Option<f64>,
+    /// Listen up to here, in seconds. Default: the end.
+    pub end_s: Option<f64>,
+    /// How impacts are timed. Default: correlation.
+    pub timing: Timing,
+    /// How candidates are found.
+    pub detect: detect::Settings,
+    /// What is known of balls.
+    pub sequence: sequence::Settings,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            height_m: None,
+            gravity_m_per_s2: 9.81,
+            start_s: None,
+            end_s: None,
+            timing: Timing::default(),
+            detect: detect::Settings::default(),
+            sequence: sequence::Settings::default(),
+        }
+    }
+}
+
+impl Settings {
+    fn check(&self) -> Result<(), Error> {
+        let positive = |name, value: f64| {
+            if value.is_finite() && value > 0.0 { Ok(()) } else { Err(Error::argument(name, value, "above 0")) }
+        };
+        positive("gravity", self.gravity_m_per_s2)?;
+        self.height_m.map_or(Ok(()), |h| positive("height", h))?;
+        for (name, time) in [("start", self.start_s), ("end", self.end_s)] {
+            if let Some(time) = time.filter(|t| !t.is_finite() || *t < 0.0) {
+                return Err(Error::argument(name, time, "0 s or more"));
+            }
+        }
+        match (self.start_s, self.end_s) {
+            (Some(start), Some(end)) if end <= start => Err(Error::argument("end", end, "after the start")),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The stretch of a channel that is listened to. All times outside it count from the start of the recording.
+#[derive(Debug, Clone, Copy)]
+struct Stretch<'a> {
+    samples: &'a [f32],
+    sample_rate_hz: f64,
+    start_s: f64,
+    /// The grid of the detector.
+    hop_s: f64,
+}
+
+impl<'a> Stretch<'a> {
+    fn new(samples: &'a [f32], sample_rate_hz: f64, settings: &Settings) -> Result<Self, Error> {
+        let at = |time_s: f64| samples_in(time_s, sample_rate_hz).min(samples.len());
+        let first = settings.start_s.map_or(0, at);
+        let last = settings.end_s.map_or(samples.len(), at);
+        if first >= last {
+            let got = settings.start_s.unwrap_or(0.0);
+            return Err(Error::argument("start", got, "a time within the recording"));
+        }
+        Ok(Self {
+            samples: &samples[first..last],
+            sample_rate_hz,
+            start_s: real(first) / sample_rate_hz,
+            hop_s: settings.detect.hop_s,
+        })
+    }
+
+    fn end_s(&self) -> f64 {
+        self.start_s + real(self.samples.len()) / self.sample_rate_hz
+    }
+
+    /// The samples between two times of the recording, as far as they are in the stretch.
+    fn between(&self, from_s: f64, to_s: f64) -> &'a [f32] {
+        let at = |t: f64| samples_in(t - self.start_s, self.sample_rate_hz).min(self.samples.len());
+        &self.samples[at(from_s)..at(to_s).max(at(from_s))]
+    }
+}
+
+/// Listens to one channel: samples of full scale ±1 at a rate in Hz.
+///
+/// ```
+/// use bounce_audio::analysis::{Settings, analyze};
+///
+/// // A click every flight of a ball with e = 0.8, at 8 kHz.
+/// let mut samples = vec![0.0_f32; 32_000];
+/// let (mut at_s, mut flight_s) = (0.5, 0.5);
+/// while flight_s > 0.01 {
+///     samples[(at_s * 8_000.0) as usize] = 0.5;
+///     at_s += flight_s;
+///     flight_s *= 0.8;
+/// }
+/// let analysis = analyze(&samples, 8_000.0, &Settings::default())?;
+/// let e = analysis.drops[0].restitution.as_ref().map(|r| r.estimate.value);
+/// assert!((e.unwrap_or(0.0) - 0.8).abs() < 0.002);
+/// # Ok::<(), bounce_audio::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Argument`] for a setting out of range or a rate too low to listen at.
+pub fn analyze(samples: &[f32], sample_rate_hz: f64, settings: &Settings) -> Result<Analysis, Error> {
+    settings.check()?;
+    let stretch = Stretch::new(samples, sample_rate_hz, settings)?;
+    let candidates = detect::candidates(stretch.samples, sample_rate_hz, &settings.detect)?;
+    explain(&stretch, &candidates, settings)
+}
+
+/// Listens to the clearest of several channels; gives its index too. See [`detect::clarity`].
+///
+/// # Errors
+/// As [`analyze`]; [`Error::Argument`] if there are no channels.
+pub fn analyze_clearest(
+    channels: &[Vec<f32>],
+    sample_rate_hz: f64,
+    settings: &Settings,
+) -> Result<(usize, Analysis), Error> {
+    settings.check()?;
+    let mut best: Option<(usize, f64, Stretch<'_>, Vec<Candidate>)> = None;
+    for (index, samples) in channels.iter().enumerate() {
+        let stretch = Stretch::new(samples, sample_rate_hz, settings)?;
+        let candidates = detect::candidates(stretch.samples, sample_rate_hz, &settings.detect)?;
+        let clarity = detect::clarity(&candidates);
+        if best.as_ref().is_none_or(|(_, highest, ..)| clarity > *highest) {
+            best = Some((index, clarity, stretch, candidates));
+        }
+    }
+    let (index, _, stretch, candidates) = best.ok_or_else(|| Error::argument("channels", 0.0, "at least one"))?;
+    Ok((index, explain(&stretch, &candidates, settings)?))
+}
+
+fn explain(stretch: &Stretch<'_>, candidates: &[Candidate], settings: &Settings) -> Result<Analysis, Error> {
+    let events: Vec<Event> =
+        candidates.iter().map(|c| Event { time_s: stretch.start_s + c.time_s, strength: c.strength }).collect();
+    let found = sequence::find(&events, &settings.sequence)?;
+    let drops: Vec<Drop> =
+        found.drops.iter().map(|chain| drop::measure(stretch, chain, settings)).collect::<Result<_, _>>()?;
+    Ok(Analysis {
+        rejected: found.rejected.iter().map(rejected).collect(),
+        rejected_weak: found.weak,
+        warnings: warnings::of_recording(stretch, &drops, &events),
+        drops,
+    })
+}
+
+/// An event's reason in words.
+fn rejected(event: &sequence::Rejected) -> Rejected {
+    let (reason, detail) = match event.reason {
+        Reason::Echo { delay_s } => {
+            ("echo", format!("follows many impacts by {:.1} ms: an echo or a part of their sound", 1e3 * delay_s))
+        }
+        Reason::Near { offset_s } if offset_s < 0.0 => ("near_impact", "just before an impact".to_owned()),
+        Reason::Near { .. } => ("near_impact", "within 5 ms after an impact: its own sound".to_owned()),
+        Reason::BetweenImpacts => ("off_sequence", "between two impacts, where no flight ends".to_owned()),
+        Reason::NoSequence => ("no_sequence", "belongs to no sequence of shrinking flights".to_owned()),
+    };
+    Rejected { time_s: event.time_s, reason, detail }
+}

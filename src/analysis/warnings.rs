@@ -1,0 +1,129 @@
+//! What a user should know about a result, and what to do about it.
+
+use super::Stretch;
+use crate::fit::flights::Impact as Timed;
+use crate::fit::total_time::{Missing, TotalTime};
+use crate::report::{Drop, Warning};
+use crate::sequence::{Chain, Event};
+
+/// Fewer flights than this tell the trend of e from chance badly.
+const FEW_IMPACTS: usize = 6;
+/// Samples at least this near full scale are taken to be clipped …
+const CLIPPED: f32 = 0.9999;
+/// … from this many on in the sound of the impacts.
+const CLIPPED_SAMPLES: usize = 3;
+/// A candidate at least this strong, in nats, is a transient that a person would notice.
+const NOTICEABLE: f64 = 30.0;
+
+/// What the recording as a whole calls for.
+pub(super) fn of_recording(stretch: &Stretch<'_>, drops: &[Drop], events: &[Event]) -> Vec<Warning> {
+    if !drops.is_empty() {
+        return Vec::new();
+    }
+    let peak = stretch.samples.iter().map(|x| x.abs()).fold(0.0, f32::max);
+    if peak <= 0.0 {
+        return vec![Warning::new("silence", "the recording is silent: every sample is zero")];
+    }
+    let noticeable = events.iter().filter(|e| e.strength >= NOTICEABLE).count();
+    let message = match noticeable {
+        0 => "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that the \
+              right input was recorded"
+            .to_owned(),
+        1..=3 => format!(
+            "only {noticeable} sharp sounds: a drop takes four impacts or more. Drop the ball from higher, or record \
+             for longer"
+        ),
+        _ => format!(
+            "{noticeable} sharp sounds, but no sequence of them shrinks as the flights of a bouncing ball do. If \
+             there is a drop, narrow the search with --start and --end"
+        ),
+    };
+    vec![Warning::new("no_drop", message)]
+}
+
+/// What the impacts of a drop call for.
+pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let heard = chain.heard();
+    if heard < FEW_IMPACTS {
+        let message = format!("only {heard} impacts: the error of e rests on {} ratios. Drop from higher", heard - 2);
+        warnings.push(Warning::new("few_impacts", message));
+    }
+    let inferred = chain.links.len() - heard;
+    if inferred > 0 {
+        let message =
+            format!("{inferred} of {} impacts were not heard and are inferred from their neighbours", timed.len());
+        warnings.push(Warning::new("inferred", message));
+    }
+    let doubtful = chain.links.iter().filter(|l| l.event.is_some() && l.doubtful).count();
+    if doubtful > 0 {
+        let message = format!("{doubtful} impacts are doubtful: noise offers sounds as strong nearby");
+        warnings.push(Warning::new("doubtful", message));
+    }
+    let clipped = timed.iter().filter(|t| t.heard && is_clipped(stretch, t.time_s)).count();
+    if clipped > 0 {
+        let message = format!("{clipped} impacts reach full scale: lower the recording level");
+        warnings.push(Warning::new("clipped", message));
+    }
+    let (first_s, last_s) = (timed.first().map_or(0.0, |t| t.time_s), timed.last().map_or(0.0, |t| t.time_s));
+    let lone = |pair: &[Timed]| pair[1].time_s - pair[0].time_s;
+    if timed.windows(2).last().is_some_and(|pair| last_s + lone(pair) > stretch.end_s()) {
+        let message = "the recording ends before the ball rests: record for longer, or lift --end";
+        warnings.push(Warning::new("cut_end", message));
+    }
+    if timed.windows(2).next().is_some_and(|pair| first_s - lone(pair) < stretch.start_s) {
+        let message = "the recording starts less than a flight before the first impact heard: earlier ones may be \
+                       missing. Start recording before the drop";
+        warnings.push(Warning::new("late_start", message));
+    }
+    warnings
+}
+
+fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
+    let sound = stretch.between(time_s - 1e-3, time_s + 5e-3);
+    sound.iter().filter(|x| x.abs() >= CLIPPED).count() >= CLIPPED_SAMPLES
+}
+
+/// Why there is no total time, or no root.
+pub(super) fn of_total_time(
+    solved: &Result<TotalTime, Missing>,
+    stretch: &Stretch<'_>,
+    timed: &[Timed],
+) -> Option<Warning> {
+    let last_s = timed.last().map_or(0.0, |t| t.time_s);
+    match *solved {
+        Err(Missing::FirstImpact { first_flight_s, expected_s }) => Some(Warning::new(
+            "first_impact_missing",
+            format!(
+                "the first flight heard is {first_flight_s:.3} s where the height makes it about {expected_s:.3} s: \
+                 the first impact is missing or --height is wrong, so equation (25) does not apply"
+            ),
+        )),
+        Err(Missing::Height { first_flight_s, longest_s }) => Some(Warning::new(
+            "height_too_small",
+            format!(
+                "the first flight is {first_flight_s:.3} s, but from this height it cannot exceed {longest_s:.3} s: \
+                 check --height; equation (25) does not apply"
+            ),
+        )),
+        Err(Missing::End { left_s }) if last_s + left_s > stretch.end_s() => Some(Warning::new(
+            "cut_before_rest",
+            format!(
+                "the recording ends before the ball rests: it would go on for about {left_s:.2} s after the last \
+                 impact, so there is no T_total and equation (25) does not apply. Record for longer"
+            ),
+        )),
+        Err(Missing::End { left_s }) => Some(Warning::new(
+            "ended_early",
+            format!(
+                "the impacts end {left_s:.2} s before the ball would rest: it was caught, or its last impacts are too \
+                 faint. There is no T_total, and equation (25) does not apply"
+            ),
+        )),
+        Ok(TotalTime { eq25: None, total_time_s, .. }) => Some(Warning::new(
+            "no_root",
+            format!("no e gives a total time of {total_time_s:.3} s by equation (25): check --height"),
+        )),
+        Ok(_) => None,
+    }
+}

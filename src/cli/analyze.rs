@@ -1,0 +1,160 @@
+//! `bounce-audio analyze`: one recording.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::{Outcome, acceleration, length, time};
+use crate::Error;
+use crate::analysis::{Settings, analyze, analyze_clearest};
+use crate::detect::refine::Timing;
+use crate::report::{self, RecordingInfo, Report, SettingsInfo, csv, json, text};
+use crate::units::real;
+use crate::wav::{self, Recording};
+
+/// Analyze one recording of a bouncing ball.
+///
+/// Exit status: 0 a drop was found, 1 none was found, 2 the recording could not be read or an argument is wrong.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  bounce-audio analyze drop.wav
+  bounce-audio analyze drop.wav --height 30.5cm
+  bounce-audio analyze drop.wav --start 2 --end 9 --format json
+  sox drop.mp3 -t wav - | bounce-audio analyze -")]
+pub(super) struct Arguments {
+    /// A WAV file, or - for standard input
+    file: PathBuf,
+    /// Height of release, from the ball's lowest point to the surface: 30.5cm, 12in, 0.305
+    #[arg(long, value_parser = length)]
+    height: Option<f64>,
+    /// Gravity in m/s²
+    #[arg(long, value_parser = acceleration, default_value = "9.81")]
+    gravity: f64,
+    /// Which channel to listen to: best (the one in which impacts stand out most) or its number from 1
+    #[arg(long, default_value = "best", value_name = "best|N")]
+    channel: Channel,
+    /// Listen from here: 2s, 1.5, 2min
+    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    start: Option<f64>,
+    /// Listen up to here
+    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    end: Option<f64>,
+    /// How impacts are timed, from fastest to most exact
+    #[arg(long, value_enum, default_value_t = TimingChoice::Auto)]
+    timing: TimingChoice,
+    /// Form of the result
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Channel {
+    Best,
+    Number(usize),
+}
+
+impl std::str::FromStr for Channel {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.parse() {
+            _ if text == "best" => Ok(Self::Best),
+            Ok(number) if number > 0 => Ok(Self::Number(number)),
+            _ => Err("expected best or a number from 1".to_owned()),
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TimingChoice {
+    /// The most exact that the recording allows
+    Auto,
+    /// The detector's grid, a quarter of a millisecond
+    Envelope,
+    /// A fixed fraction of each impact's rise
+    Fraction,
+    /// Correlation with the mean impact
+    Correlation,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Format {
+    /// For a person
+    Text,
+    /// For programs: everything
+    Json,
+    /// One row per impact
+    Csv,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let recording = read(&arguments.file)?;
+    let report = listen(arguments, recording).map_err(|e| e.in_file(&arguments.file))?;
+    let output = match arguments.format {
+        Format::Text => text::to_text(&report),
+        Format::Csv => csv::to_csv(&report),
+        Format::Json => json::to_json(&report).map_err(io::Error::from)?,
+    };
+    Ok(Outcome { output, status: u8::from(report.analysis.drops.is_empty()) })
+}
+
+fn read(file: &Path) -> Result<Recording, Error> {
+    if file == Path::new("-") {
+        wav::read(io::stdin().lock()).map_err(|e| e.in_file("standard input"))
+    } else {
+        wav::read_file(file)
+    }
+}
+
+fn listen(arguments: &Arguments, recording: Recording) -> Result<Report, Error> {
+    let settings = settings(arguments);
+    let rate = f64::from(recording.sample_rate_hz);
+    let (channel, mut analysis) = match arguments.channel {
+        Channel::Best => analyze_clearest(&recording.channels, rate, &settings)?,
+        Channel::Number(number) => {
+            let samples = recording.channels.get(number - 1).ok_or_else(|| Error::Argument {
+                argument: "--channel",
+                got: number.to_string(),
+                expected: "a channel that the recording has",
+            })?;
+            (number - 1, analyze(samples, rate, &settings)?)
+        }
+    };
+    let repairs = recording.warnings.into_iter().map(|message| report::Warning::new("repaired", message));
+    analysis.warnings.extend(repairs);
+    Ok(Report {
+        schema_version: report::SCHEMA_VERSION,
+        file: arguments.file.display().to_string(),
+        recording: RecordingInfo {
+            sample_rate_hz: rate,
+            channels: recording.channels.len(),
+            channel: channel + 1,
+            duration_s: real(recording.channels.first().map_or(0, Vec::len)) / rate,
+            encoding: recording.encoding,
+        },
+        settings: SettingsInfo {
+            height_m: settings.height_m,
+            gravity_m_per_s2: settings.gravity_m_per_s2,
+            start_s: settings.start_s,
+            end_s: settings.end_s,
+            timing: settings.timing,
+        },
+        analysis,
+    })
+}
+
+fn settings(arguments: &Arguments) -> Settings {
+    Settings {
+        height_m: arguments.height,
+        gravity_m_per_s2: arguments.gravity,
+        start_s: arguments.start,
+        end_s: arguments.end,
+        timing: match arguments.timing {
+            TimingChoice::Envelope => Timing::Envelope,
+            TimingChoice::Fraction => Timing::Fraction,
+            TimingChoice::Auto | TimingChoice::Correlation => Timing::Correlation,
+        },
+        ..Settings::default()
+    }
+}

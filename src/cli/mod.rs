@@ -1,0 +1,65 @@
+//! The command line: parses, calls the library and says what to print. Files and standard input are touched here.
+
+mod analyze;
+mod synth;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use crate::Error;
+use crate::units::Quantity;
+
+/// Listens to a recording of a ball bouncing and says when it hit, how often, and its coefficient of restitution.
+#[derive(Debug, Parser)]
+#[command(name = "bounce-audio", version, about, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Analyze(analyze::Arguments),
+    Synth(synth::Arguments),
+}
+
+/// What a command leaves behind.
+#[derive(Debug)]
+pub struct Outcome {
+    /// For standard output.
+    pub output: String,
+    /// 0: done; 1: it ran, but there was nothing to find.
+    pub status: u8,
+}
+
+/// Runs the command that the process was started with.
+///
+/// # Errors
+/// Whatever kept the command from doing what was asked; the exit status is then 2.
+pub fn run() -> Result<Outcome, Error> {
+    match Arguments::parse().command {
+        Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Synth(arguments) => synth::run(&arguments),
+    }
+}
+
+impl Outcome {
+    /// The status for the system.
+    #[must_use]
+    pub fn code(&self) -> ExitCode {
+        ExitCode::from(self.status)
+    }
+}
+
+fn length(text: &str) -> Result<f64, Error> {
+    Quantity::Length.parse("length", text)
+}
+
+fn time(text: &str) -> Result<f64, Error> {
+    Quantity::Time.parse("time", text)
+}
+
+fn acceleration(text: &str) -> Result<f64, Error> {
+    Quantity::Acceleration.parse("acceleration", text)
+}

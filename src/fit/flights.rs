@@ -1,0 +1,156 @@
+//! Restitution from the ratios of successive flights.
+
+use super::Estimate;
+use crate::units::real;
+
+/// One impact as the fit sees it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Impact {
+    /// Seconds.
+    pub time_s: f64,
+    /// Standard error of the time in seconds.
+    pub std_s: f64,
+    /// Whether it was heard; an impact that is only inferred bounds no flight that was measured.
+    pub heard: bool,
+}
+
+/// The flights between impacts heard.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Flights {
+    /// Number of the impact before each flight, and its length in seconds.
+    lengths: Vec<(usize, f64)>,
+}
+
+impl Flights {
+    /// The flights between neighbouring impacts that were both heard, which are in order of time.
+    #[must_use]
+    pub fn between(impacts: &[Impact]) -> Self {
+        let lengths = impacts
+            .windows(2)
+            .enumerate()
+            .filter(|(_, pair)| pair[0].heard && pair[1].heard && pair[1].time_s > pair[0].time_s)
+            .map(|(i, pair)| (i, pair[1].time_s - pair[0].time_s))
+            .collect();
+        Self { lengths }
+    }
+
+    /// Length in seconds of the flight after impact `number`, counted from 0, if both its ends were heard.
+    #[must_use]
+    pub fn after(&self, number: usize) -> Option<f64> {
+        let place = self.lengths.binary_search_by_key(&number, |&(i, _)| i).ok()?;
+        Some(self.lengths[place].1)
+    }
+
+    /// ln of the ratio of each flight to the one before it, with the number of the impact between them.
+    #[must_use]
+    pub fn ln_ratios(&self) -> Vec<(usize, f64)> {
+        self.lengths
+            .windows(2)
+            .filter(|pair| pair[1].0 == pair[0].0 + 1)
+            .map(|pair| (pair[1].0, (pair[1].1 / pair[0].1).ln()))
+            .collect()
+    }
+
+    /// The plain geometric mean of the ratios, from the first flight to the last.
+    ///
+    /// # Formula
+    /// ```text
+    /// ln e = ln(T_b / T_a) / (b − a),   σ = s / √m
+    /// ```
+    /// T_a and T_b are the first and last flight, s is the standard deviation of the m ratios about their mean. Where
+    /// each rebound scatters by itself this is the right error; where the times' jitter rules, neighbouring ratios
+    /// err in opposite directions and it is too wide, never too narrow. A trend (drag) widens it too. One ratio has no
+    /// error.
+    ///
+    /// None for fewer than two flights.
+    #[must_use]
+    pub fn ratio(&self) -> Option<Estimate> {
+        let (&(a, first), &(b, last)) = (self.lengths.first()?, self.lengths.last()?);
+        if a == b {
+            return None;
+        }
+        let ln = (last / first).ln() / real(b - a);
+        let Some(scatter) = self.scatter() else {
+            return Some(Estimate::bare(ln.exp()));
+        };
+        let count = real(self.ln_ratios().len());
+        Some(Estimate::from_ln(ln, scatter / count.sqrt(), count - 1.0))
+    }
+
+    /// Standard deviation of the ln ratios about their mean; none for fewer than two.
+    #[must_use]
+    pub fn scatter(&self) -> Option<f64> {
+        let ratios = self.ln_ratios();
+        if ratios.len() < 2 {
+            return None;
+        }
+        let mean = ratios.iter().map(|(_, r)| r).sum::<f64>() / real(ratios.len());
+        let squares: f64 = ratios.iter().map(|(_, r)| (r - mean).powi(2)).sum();
+        Some((squares / real(ratios.len() - 1)).sqrt())
+    }
+
+    /// Geometric mean of the speeds at which the ball arrived, `g·T/2` after each flight of length T, in m/s.
+    ///
+    /// None without flights.
+    #[must_use]
+    pub fn mean_speed_m_per_s(&self, gravity_m_per_s2: f64) -> Option<f64> {
+        if self.lengths.is_empty() {
+            return None;
+        }
+        let ln = self.lengths.iter().map(|(_, t)| (0.5 * gravity_m_per_s2 * t).ln()).sum::<f64>();
+        Some((ln / real(self.lengths.len())).exp())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drop(first: f64, ratios: &[f64]) -> Vec<Impact> {
+        let mut flight = first;
+        let mut time_s = 1.0 + first;
+        let mut impacts = vec![1.0, time_s];
+        for r in ratios {
+            flight *= r;
+            time_s += flight;
+            impacts.push(time_s);
+        }
+        impacts.into_iter().map(|time_s| Impact { time_s, std_s: 1e-6, heard: true }).collect()
+    }
+
+    #[test]
+    fn the_ratio_of_a_geometric_drop_is_exact() {
+        let estimate = Flights::between(&drop(0.5, &[0.8; 12])).ratio().unwrap();
+        assert!((estimate.value - 0.8).abs() < 1e-12 && estimate.std_error.unwrap() < 1e-12);
+    }
+
+    #[test]
+    fn scatter_makes_the_error() {
+        // ln ratios alternate by ±s about the mean: the standard deviation of ten of them is s·√(10/9).
+        let s = 0.01_f64;
+        let ratios: Vec<f64> = (0..10).map(|i| 0.9 * if i % 2 == 0 { s.exp() } else { (-s).exp() }).collect();
+        let estimate = Flights::between(&drop(0.5, &ratios)).ratio().unwrap();
+        assert!((estimate.value - 0.9).abs() < 1e-12);
+        let expected = 0.9 * s * (10.0_f64 / 9.0).sqrt() / 10.0_f64.sqrt();
+        assert!((estimate.std_error.unwrap() - expected).abs() < 1e-12);
+        let [low, high] = estimate.interval95.unwrap();
+        assert!((((high / low).ln() / 2.0) / (expected / 0.9) - 2.262).abs() < 1e-3);
+    }
+
+    #[test]
+    fn an_inferred_impact_bounds_no_flight_but_keeps_its_number() {
+        let mut impacts = drop(0.5, &[0.8; 8]);
+        impacts[4].heard = false;
+        impacts[4].time_s += 0.02;
+        let flights = Flights::between(&impacts);
+        assert_eq!((flights.after(2).is_some(), flights.after(3), flights.after(4)), (true, None, None));
+        assert!((flights.ratio().unwrap().value - 0.8).abs() < 1e-12);
+    }
+
+    #[test]
+    fn three_impacts_give_one_ratio_without_an_error() {
+        let estimate = Flights::between(&drop(0.5, &[0.8])).ratio().unwrap();
+        assert!((estimate.value - 0.8).abs() < 1e-12 && estimate.std_error.is_none());
+        assert!(Flights::between(&drop(0.5, &[])).ratio().is_none());
+    }
+}

@@ -1,0 +1,69 @@
+//! From impact times to the coefficient of restitution. Sees times only: no samples, no files.
+//!
+//! Two ways stand side by side: [`flights`] from the ratios of successive flights, [`total_time`] from height, number
+//! and total time by the paper's equation (25).
+
+pub mod flights;
+pub mod total_time;
+
+pub use flights::Flights;
+
+use serde::Serialize;
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// A value with its uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Estimate {
+    /// The value.
+    pub value: f64,
+    /// Its standard error; none where the data do not tell.
+    pub std_error: Option<f64>,
+    /// The interval that holds the truth in 95 of 100 cases; none where the data do not tell.
+    pub interval95: Option<[f64; 2]>,
+}
+
+impl Estimate {
+    /// A value without a known error.
+    #[must_use]
+    pub const fn bare(value: f64) -> Self {
+        Self { value, std_error: None, interval95: None }
+    }
+
+    /// A restitution from its logarithm and that one's standard error, which rests on this many degrees of freedom.
+    ///
+    /// # Formula
+    /// ```text
+    /// e = exp(l),  σ_e = e·σ_l,  interval exp(l ± t·σ_l),  t the 0.975 quantile of Student's distribution
+    /// ```
+    #[must_use]
+    pub fn from_ln(ln: f64, ln_std: f64, degrees_of_freedom: f64) -> Self {
+        let reach = student_975(degrees_of_freedom) * ln_std;
+        Self {
+            value: ln.exp(),
+            std_error: Some(ln.exp() * ln_std),
+            interval95: Some([(ln - reach).exp(), (ln + reach).exp()]),
+        }
+    }
+}
+
+/// The 0.975 quantile of Student's distribution; the normal's where the degrees of freedom are infinite.
+#[must_use]
+pub fn student_975(degrees_of_freedom: f64) -> f64 {
+    const NORMAL: f64 = 1.959_963_984_540_054;
+    if degrees_of_freedom > 1e6 {
+        return NORMAL;
+    }
+    StudentsT::new(0.0, 1.0, degrees_of_freedom).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_those_of_the_tables() {
+        for (freedom, quantile) in [(1.0, 12.706), (2.0, 4.303), (5.0, 2.571), (30.0, 2.042), (f64::INFINITY, 1.960)] {
+            assert!((student_975(freedom) - quantile).abs() < 6e-4, "{freedom}: {}", student_975(freedom));
+        }
+    }
+}

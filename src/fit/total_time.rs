@@ -1,0 +1,223 @@
+//! Restitution from height, number of bounces and total time: equations (25) and (30).
+
+use serde::Serialize;
+
+use super::flights::{Flights, Impact};
+use super::{Estimate, student_975};
+use crate::Error;
+use crate::physics::BounceSeries;
+use crate::units::real;
+
+/// What (25) is solved from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Drop<'a> {
+    /// All impacts in order of time.
+    pub impacts: &'a [Impact],
+    /// The flights between them.
+    pub flights: &'a Flights,
+    /// e from the flights: how the ball would have gone on.
+    pub restitution: f64,
+    /// From the ball's lowest point to the surface, in metres.
+    pub height_m: f64,
+    /// In m/s².
+    pub gravity_m_per_s2: f64,
+    
+}
+
+/// Why there is no total time.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case", tag = "reason")]
+#[non_exhaustive]
+pub enum Missing {
+    /// The first flight is too short for this height: impacts before it were not recorded.
+    FirstImpact {
+        /// The first flight in seconds.
+        first_flight_s: f64,
+        /// What the height and the ratio of the first flights make it, in seconds.
+        expected_s: f64,
+    },
+    /// The first flight is longer than a perfect ball's from this height.
+    Height {
+        /// The first flight in seconds.
+        first_flight_s: f64,
+        /// That of a ball that loses nothing, in seconds.
+        longest_s: f64,
+    },
+    /// The recording, or the bouncing, ends long before the ball would rest.
+    End {
+        /// How long the ball would have gone on, in seconds.
+        left_s: f64,
+    },
+}
+
+/// What the total time says.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TotalTime {
+    /// From release to rest, in seconds: `√(2·h0/g) + (t_n − t_1) + ΔT`, ΔT the last contact by (20).
+    pub total_time_s: f64,
+    /// e by (25); none where no e gives this total time.
+    pub eq25: Option<Estimate>,
+    /// e by (30).
+    pub eq30: Option<Estimate>,
+}
+
+/// A last flight after which the ball would go on for more than this share of the whole time was not its last.
+const LARGEST_REST: f64 = 0.1;
+/// A first flight shorter than expected by more than half a bounce has lost a bounce: halfway in ln T.
+const HALF_A_BOUNCE: f64 = 1.5;
+
+/// The total time and what follows from it.
+///
+/// The standard error holds the scatter of the bounces (each moves all flights after it), and the time that the ball
+/// goes on unheard, which makes n and the total time lower bounds. Height and gravity are taken as exact.
+///
+/// # Errors
+/// [`Error::Argument`] if height or gravity is not positive.
+pub fn solve(drop: &Drop<'_>) -> Result<Result<TotalTime, Missing>, Error> {
+    let series = BounceSeries::new(drop.height_m, drop.gravity_m_per_s2)?;
+    if let Some(missing) = missing(drop, &series) {
+        return Ok(Err(missing));
+    }
+    let (Some(first), Some(last)) = (drop.impacts.first(), drop.impacts.last()) else {
+        return Ok(Err(Missing::End { left_s: 0.0 }));
+    };
+    let observed = last.time_s - first.time_s;
+    let bounces = drop.impacts.len();
+    let mut total_time_s = series.first_fall_s() + observed;
+    let mut root = None;
+    // The last contact is that of (20), which depends on e: each round changes it by dΔT/de·de, far below itself.
+    for _ in 0..CONTACT_ROUNDS {
+        root = series.restitution_from_total_time(bounces, total_time_s).ok();
+        let Some(found) = root else { break };
+        total_time_s = series.first_fall_s() + observed + series.rest_contact_time_s(found.restitution, bounces)?;
+    }
+    let std_s = error_s(drop);
+    let freedom = real(drop.flights.ln_ratios().len().saturating_sub(1));
+    let estimate = |e: f64, slope: f64| {
+        let std = slope * std_s;
+        let reach = student_975(freedom) * std;
+        Estimate { value: e, std_error: Some(std), interval95: Some([(e - reach).max(0.0), (e + reach).min(1.0)]) }
+    };
+    let endless = series.restitution_from_total_time_approx(total_time_s).ok();
+    Ok(Ok(TotalTime {
+        total_time_s,
+        eq25: root.map(|r| estimate(r.restitution.value(), r.per_total_time_per_s)),
+        eq30: endless.map(|r| estimate(r.restitution.value(), r.per_total_time_per_s)),
+    }))
+}
+
+/// Rounds in which the last contact settles.
+const CONTACT_ROUNDS: usize = 6;
+
+/// √(h1/h0): e of the first impact, drag of the first fall included; none if the first flight was not heard whole.
+///
+/// # Formula
+/// ```text
+/// h1 = g·T_1²/8,   e = √(h1/h0) = T_1·√(g/(8·h0)),   σ = e·σ_T/T_1
+/// ```
+#[must_use]
+pub fn first_rebound(drop: &Drop<'_>) -> Option<Estimate> {
+    let flight = drop.flights.after(0)?;
+    let value = flight * (drop.gravity_m_per_s2 / (8.0 * drop.height_m)).sqrt();
+    let std = value * drop.impacts[0].std_s.hypot(drop.impacts[1].std_s) / flight;
+    let reach = student_975(f64::INFINITY) * std;
+    Some(Estimate { value, std_error: Some(std), interval95: Some([value - reach, value + reach]) })
+}
+
+fn missing(drop: &Drop<'_>, series: &BounceSeries) -> Option<Missing> {
+    if let Some(first_flight_s) = drop.flights.after(0) {
+        let longest_s = 2.0 * series.first_fall_s();
+        if first_flight_s > longest_s {
+            return Some(Missing::Height { first_flight_s, longest_s });
+        }
+        let early: Vec<f64> = drop.flights.ln_ratios().iter().take(2).map(|(_, r)| *r).collect();
+        let ln_ratio = early.iter().sum::<f64>() / real(early.len().max(1));
+        if (first_flight_s / longest_s).ln() < HALF_A_BOUNCE * ln_ratio {
+            return Some(Missing::FirstImpact { first_flight_s, expected_s: longest_s * ln_ratio.exp() });
+        }
+    }
+    let left_s = left_s(drop);
+    let whole = series.first_fall_s() + drop.impacts.last()?.time_s - drop.impacts.first()?.time_s + left_s;
+    (left_s > LARGEST_REST * whole).then_some(Missing::End { left_s })
+}
+
+/// How long the ball goes on after the last impact, at the same ratio for ever: `T·e/(1 − e)`.
+#[must_use]
+pub fn left_s(drop: &Drop<'_>) -> f64 {
+    let last = drop.impacts.len().checked_sub(2).and_then(|i| drop.flights.after(i));
+    last.unwrap_or(0.0) * drop.restitution / (1.0 - drop.restitution).max(f64::EPSILON)
+}
+
+/// Standard error of the total time: scatter, and the unheard end, of which anything may be missing.
+fn error_s(drop: &Drop<'_>) -> f64 {
+    let scatter = drop.flights.scatter().unwrap_or(0.0);
+    let last = drop.impacts.last().map_or(0.0, |i| i.time_s);
+    // A rebound stronger by a share makes all flights after it longer by that share.
+    let moved: f64 = drop.impacts.iter().map(|i| (last - i.time_s).powi(2)).sum();
+    (scatter * moved.sqrt()).hypot(left_s(drop) / 3.0_f64.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const G: f64 = 9.81;
+
+    /// The impacts of a ball of constant e, from its first one at 1 s.
+    fn impacts(height: f64, e: f64, count: usize) -> Vec<Impact> {
+        let mut flight = 2.0 * e * (2.0 * height / G).sqrt();
+        let mut time_s = 1.0;
+        (0..count)
+            .map(|_| {
+                let impact = Impact { time_s, std_s: 1e-5, heard: true };
+                time_s += flight;
+                flight *= e;
+                impact
+            })
+            .collect()
+    }
+
+    fn solved(impacts: &[Impact], height_m: f64) -> Result<TotalTime, Missing> {
+        let flights = Flights::between(impacts);
+        let restitution = flights.ratio().unwrap().value;
+        solve(&Drop { impacts, flights: &flights, restitution, height_m, gravity_m_per_s2: G })
+            .unwrap()
+    }
+
+    #[test]
+    fn the_papers_own_ball_comes_back() {
+        // 70 bounces at the e that (25) gives for 7.5 s: the flights alone last 7.5 s less 70 contacts.
+        let found = solved(&impacts(0.305, 0.9335, 70), 0.305).unwrap();
+        let eq25 = found.eq25.unwrap();
+        assert!((eq25.value - 0.9335).abs() < 0.003 && eq25.std_error.unwrap() > 0.0, "{found:?}");
+        assert!(found.eq30.unwrap().value > 0.93);
+    }
+
+    #[test]
+    fn a_lost_first_impact_is_noticed() {
+        let whole = impacts(0.5, 0.8, 20);
+        assert!(solved(&whole, 0.5).is_ok());
+        assert!(matches!(solved(&whole[1..], 0.5), Err(Missing::FirstImpact { .. })));
+        assert!(matches!(solved(&whole, 0.2), Err(Missing::Height { .. })));
+    }
+
+    #[test]
+    fn an_early_end_is_noticed() {
+        assert!(matches!(solved(&impacts(0.5, 0.9, 8), 0.5), Err(Missing::End { .. })));
+    }
+
+    #[test]
+    fn the_first_rebound_is_the_first_restitution() {
+        let impacts = impacts(0.5, 0.8, 5);
+        let flights = Flights::between(&impacts);
+        let drop = Drop {
+            impacts: &impacts,
+            flights: &flights,
+            restitution: 0.8,
+            height_m: 0.5,
+            gravity_m_per_s2: G,
+            
+        };
+        assert!((first_rebound(&drop).unwrap().value - 0.8).abs() < 1e-12);
+    }
+}

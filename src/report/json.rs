@@ -1,0 +1,11 @@
+//! The report as a JSON document.
+
+use super::Report;
+
+/// The document, ending with a line feed. Numbers that do not exist are null.
+///
+/// # Errors
+/// If a value cannot be written as JSON, which no report of this library holds.
+pub fn to_json(report: &Report) -> Result<String, serde_json::Error> {
+    serde_json::to_string_pretty(report).map(|s| s + "\n")
+}

@@ -1,0 +1,237 @@
+//! What was found, as data. Formats are pure functions of it.
+//!
+//! Field names are those of the JSON document and a contract: more may be added, none renamed.
+
+pub mod csv;
+pub mod json;
+pub mod text;
+
+use serde::Serialize;
+
+use crate::fit::Estimate;
+
+/// Version of the JSON document.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// Everything about one recording.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Report {
+    /// Version of the document's form.
+    pub schema_version: u32,
+    /// Name of the file as it was given.
+    pub file: String,
+    /// The recording itself.
+    pub recording: RecordingInfo,
+    /// What was asked for.
+    pub settings: SettingsInfo,
+    /// The drops, their rejects and the warnings.
+    #[serde(flatten)]
+    pub analysis: Analysis,
+}
+
+/// The recording as it was read.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RecordingInfo {
+    /// Samples per second.
+    pub sample_rate_hz: f64,
+    /// How many channels there are.
+    pub channels: usize,
+    /// Which one was listened to, counted from 1.
+    pub channel: usize,
+    /// Seconds.
+    pub duration_s: f64,
+    /// How samples are stored.
+    pub encoding: String,
+}
+
+/// What was asked for.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SettingsInfo {
+    /// From the ball's lowest point to the surface, in metres.
+    pub height_m: Option<f64>,
+    /// In m/s².
+    pub gravity_m_per_s2: f64,
+    /// Where listening began, in seconds.
+    pub start_s: Option<f64>,
+    /// Where it ended, in seconds.
+    pub end_s: Option<f64>,
+    /// How impacts were timed.
+    pub timing: crate::detect::refine::Timing,
+}
+
+/// What was heard in a recording.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Analysis {
+    /// The drops in order of time.
+    pub drops: Vec<Drop>,
+    /// Strong events outside any drop.
+    pub rejected: Vec<Rejected>,
+    /// How many weaker events were left out without being listed.
+    pub rejected_weak: usize,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
+}
+
+/// One drop.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Drop {
+    /// The impacts in order of time.
+    pub impacts: Vec<Impact>,
+    /// How many were heard, doubtful ones included.
+    pub bounces: usize,
+    /// From the first impact to the last, in seconds.
+    pub observed_time_s: f64,
+    /// From release to rest, in seconds; null without a height, a first impact or an end.
+    pub total_time_s: Option<f64>,
+    /// The answer.
+    pub restitution: Option<Restitution>,
+    /// Several ways to it, side by side.
+    pub estimates: Estimates,
+    /// How much times and bounces scatter.
+    pub scatter: Scatter,
+    /// Which model the answer rests on.
+    pub model: Model,
+    /// Stiffness and damping; null until a contact time is known.
+    pub ball: Option<Ball>,
+    /// Evidence that this is a drop and no chance, in nats.
+    pub evidence_nats: f64,
+    /// Strong events between the impacts that are none.
+    pub rejected: Vec<Rejected>,
+    /// What the user should know about this drop.
+    pub warnings: Vec<Warning>,
+}
+
+/// Whether an impact was heard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Status {
+    /// It was.
+    Heard,
+    /// Something was heard, but chance offers as much nearby.
+    Doubtful,
+    /// Nothing was heard; its neighbours say that it was there.
+    Inferred,
+}
+
+impl Status {
+    /// The word of the document.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Heard => "heard",
+            Self::Doubtful => "doubtful",
+            Self::Inferred => "inferred",
+        }
+    }
+}
+
+/// One impact and the flight after it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Impact {
+    /// Seconds from the first sample.
+    pub time_s: f64,
+    /// Standard error of the time in seconds; null where it is inferred.
+    pub time_std_s: Option<f64>,
+    /// Peak of its sound below full scale; null where it is inferred or silent.
+    pub level_db: Option<f64>,
+    /// To the next impact, in seconds; null for the last, and where either end is inferred.
+    pub interval_s: Option<f64>,
+    /// That interval over the one before.
+    pub ratio: Option<f64>,
+    /// Height of the rebound, g·T²/8, in metres.
+    pub rebound_height_m: Option<f64>,
+    /// Whether it was heard.
+    pub status: Status,
+}
+
+/// The coefficient of restitution of ball and surface.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Restitution {
+    /// e.
+    #[serde(flatten)]
+    pub estimate: Estimate,
+    /// Geometric mean of the impact speeds it was measured at.
+    pub at_speed_m_per_s: Option<f64>,
+    /// The estimate it comes from.
+    pub method: &'static str,
+}
+
+/// Ways to e, side by side.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Estimates {
+    /// Geometric mean of the ratios of successive flights.
+    pub flight_ratio: Option<Estimate>,
+    /// Equation (25) of the paper.
+    pub eq25: Option<Estimate>,
+    /// Equation (30) of the paper.
+    pub eq30: Option<Estimate>,
+    /// √(h1/h0) of the first impact.
+    pub first_rebound: Option<Estimate>,
+}
+
+/// How much times and bounces scatter.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Scatter {
+    /// Median standard error of the times heard, in seconds.
+    pub timing_std_s: Option<f64>,
+    /// Standard deviation of the ln ratios of successive flights, timing included.
+    pub bounce_std: Option<f64>,
+}
+
+/// The model of the flights.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Model {
+    /// Its name.
+    pub selected: &'static str,
+    /// Its parameters.
+    pub parameters: serde_json::Map<String, serde_json::Value>,
+    /// The models that were compared.
+    pub candidates: Vec<String>,
+}
+
+/// The mass-spring-damper ball.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Ball {
+    /// Contact time ΔT.
+    pub contact_time_s: f64,
+    /// k.
+    pub stiffness_n_per_m: Option<f64>,
+    /// c.
+    pub damping_n_s_per_m: Option<f64>,
+    /// ω_n.
+    pub natural_frequency_rad_per_s: f64,
+    /// ζ.
+    pub damping_ratio: f64,
+    /// When contact ends.
+    pub release_rule: &'static str,
+    /// Where the contact time comes from.
+    pub source: &'static str,
+}
+
+/// A strong event that is no impact.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Rejected {
+    /// Seconds from the first sample.
+    pub time_s: f64,
+    /// Why, in a word.
+    pub reason: &'static str,
+    /// Why, in a sentence's part.
+    pub detail: String,
+}
+
+/// Something the user should know, and what to do about it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Warning {
+    /// A word for programs.
+    pub code: &'static str,
+    /// A sentence for people.
+    pub message: String,
+}
+
+impl Warning {
+    /// A warning.
+    #[must_use]
+    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
+        Self { code, message: message.into() }
+    }
+}

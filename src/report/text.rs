@@ -1,0 +1,145 @@
+//! The report for a person: the answer first, then the impacts, then what to know.
+
+use std::fmt::Write;
+
+use super::{Drop, Impact, Rejected, Report, Warning};
+use crate::fit::Estimate;
+
+/// Lines that answer first (e, n, total time), then a table of impacts, then what was rejected, then warnings.
+#[must_use]
+pub fn to_text(report: &Report) -> String {
+    let mut out = String::new();
+    let drops = &report.analysis.drops;
+    let count = drops.len();
+    line(&mut out, &match count {
+        0 => format!("{}: no drop found", report.file),
+        1 => format!("{}: one drop", report.file),
+        _ => format!("{}: {count} drops", report.file),
+    });
+    for (i, drop) in drops.iter().enumerate() {
+        if count > 1 {
+            line(&mut out, &format!("\nDrop {}", i + 1));
+        }
+        answer(&mut out, drop);
+        table(&mut out, &drop.impacts);
+        rejects(&mut out, &drop.rejected, "between the impacts");
+        warnings(&mut out, &drop.warnings);
+    }
+    if count == 0 {
+        rejects(&mut out, &report.analysis.rejected, "in the recording");
+    }
+    warnings(&mut out, &report.analysis.warnings);
+    out
+}
+
+fn line(out: &mut String, text: &str) {
+    out.push_str(text);
+    out.push('\n');
+}
+
+fn answer(out: &mut String, drop: &Drop) {
+    line(out, "");
+    match &drop.restitution {
+        Some(r) => line(out, &format!("  e        {}", with_error(&r.estimate))),
+        None => line(out, "  e        not determined"),
+    }
+    line(out, &format!("  bounces  {}", drop.bounces));
+    let observed = format!("{:.4} s from the first impact to the last", drop.observed_time_s);
+    match drop.total_time_s {
+        Some(total) => line(out, &format!("  T_total  {total:.4} s from release to rest ({observed})")),
+        None => line(out, &format!("  time     {observed}")),
+    }
+    let estimates = &drop.estimates;
+    let others = [
+        ("flight ratios", estimates.flight_ratio),
+        ("equation (25)", estimates.eq25),
+        ("equation (30)", estimates.eq30),
+        ("first rebound", estimates.first_rebound),
+    ];
+    line(out, "\n  e from");
+    for (name, estimate) in others {
+        let value = estimate.map_or_else(|| "-".to_owned(), |e| with_error(&e));
+        line(out, &format!("    {name}  {value}"));
+    }
+}
+
+/// `0.9452 ± 0.0006 (95 %: 0.9440 to 0.9464)`, to the digits that the error leaves.
+fn with_error(estimate: &Estimate) -> String {
+    let (Some(std), Some([low, high])) = (estimate.std_error, estimate.interval95) else {
+        return format!("{:.3} (no error: a single ratio)", estimate.value);
+    };
+    let digits = digits_for(std);
+    format!("{:.digits$} ± {std:.digits$} (95 %: {low:.digits$} to {high:.digits$})", estimate.value)
+}
+
+/// Decimals that show an error with two digits, at most eight.
+fn digits_for(std: f64) -> usize {
+    (1..8).find(|&d| std * 10_f64.powi(d) >= 9.5).map_or(8, |d| usize::try_from(d).unwrap_or(8))
+}
+
+fn table(out: &mut String, impacts: &[Impact]) {
+    line(out, "\n     #    time [s]  ± [ms]   level [dB]  flight [ms]   ratio  rebound [mm]");
+    for (i, impact) in impacts.iter().enumerate() {
+        let cell = |value: Option<f64>, width: usize, decimals: usize| {
+            value.map_or_else(|| format!("{:>width$}", "-"), |v| format!("{v:width$.decimals$}"))
+        };
+        let row = format!(
+            "  {:4}  {:10.6}  {}  {}  {}  {}  {}  {}",
+            i + 1,
+            impact.time_s,
+            cell(impact.time_std_s.map(|s| 1e3 * s), 6, 4),
+            cell(impact.level_db, 11, 1),
+            cell(impact.interval_s.map(|t| 1e3 * t), 11, 3),
+            cell(impact.ratio, 6, 4),
+            cell(impact.rebound_height_m.map(|h| 1e3 * h), 12, 2),
+            if impact.status == super::Status::Heard { "" } else { impact.status.word() },
+        );
+        line(out, row.trim_end());
+    }
+}
+
+/// How many rejected events are written out; the JSON document has them all.
+const SHOWN: usize = 8;
+
+fn rejects(out: &mut String, rejected: &[Rejected], place: &str) {
+    if rejected.is_empty() {
+        return;
+    }
+    line(out, &format!("\nRejected {place}: {}", rejected.len()));
+    let mut kinds: Vec<(&str, usize, &Rejected)> = Vec::new();
+    for r in rejected {
+        match kinds.iter_mut().find(|(detail, ..)| *detail == r.detail) {
+            Some((_, count, _)) => *count += 1,
+            None => kinds.push((&r.detail, 1, r)),
+        }
+    }
+    kinds.sort_by_key(|&(_, count, _)| std::cmp::Reverse(count));
+    for (detail, count, first) in kinds.iter().take(SHOWN) {
+        // Writing to a string cannot fail.
+        let _: std::fmt::Result = match count {
+            1 => writeln!(out, "  {:.4} s: {detail}", first.time_s),
+            _ => writeln!(out, "  {count} times, first at {:.4} s: {detail}", first.time_s),
+        };
+    }
+}
+
+fn warnings(out: &mut String, warnings: &[Warning]) {
+    if !warnings.is_empty() {
+        line(out, "");
+    }
+    for warning in warnings {
+        line(out, &format!("Warning: {}", warning.message));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_written_to_the_digits_that_their_error_leaves() {
+        let estimate = Estimate { value: 0.945_231, std_error: Some(0.000_61), interval95: Some([0.944, 0.9465]) };
+        assert_eq!(with_error(&estimate), "0.94523 ± 0.00061 (95 %: 0.94400 to 0.94650)");
+        assert!(with_error(&Estimate::bare(0.8)).starts_with("0.800 (no error"));
+    }
+}
