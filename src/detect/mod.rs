@@ -80,21 +80,14 @@ pub fn candidates(
         };
         let from = start.saturating_sub(margin);
         let to = (end + margin).min(samples.len());
-        let evidence = rise::evidence(&bank, &samples[from..to]);
+        let evidence = rise::Evidence::of(&bank, &samples[from..to]);
         let inside = (start - from) / hop..(end - from).div_ceil(hop);
-        found.extend(
-            peaks::pick(
-                &evidence,
-                settings.separation_s / bank.hop_s(),
-                settings.weakest,
-            )
-            .into_iter()
-            .filter(|p| inside.contains(&p.index))
-            .map(|p| Candidate {
-                time_s: real(from) / sample_rate_hz + p.position * bank.hop_s(),
-                strength: p.height,
-            }),
-        );
+        let separation = settings.separation_s / bank.hop_s();
+        let peaks = peaks::pick(&evidence.total, separation, settings.weakest);
+        found.extend(peaks.iter().filter(|p| inside.contains(&p.index)).map(|p| Candidate {
+            time_s: real(from) / sample_rate_hz + evidence.begin(p.index) * bank.hop_s(),
+            strength: p.height,
+        }));
         start = end;
     }
     Ok(found)

@@ -4,11 +4,11 @@ use super::filterbank::{Band, Filterbank};
 use crate::units::real;
 
 /// Shortest window after the moment, in seconds: the ring of one impact lasts longer.
-const AFTER_S: f64 = 0.8e-3;
+const AFTER_S: f64 = 1e-3;
 /// Shortest window before the moment, in seconds: the ordinary level is worth knowing better than the new one.
 const BEFORE_S: f64 = 1.6e-3;
 /// A band of width B tells apart about 2B values a second; windows hold at least this many before and after.
-const VALUES_AFTER: f64 = 4.0;
+const VALUES_AFTER: f64 = 5.0;
 const VALUES_BEFORE: f64 = 6.0;
 /// The ordinary level of a band is not taken below this quantile of its own energy …
 const FLOOR_QUANTILE: f64 = 0.1;
@@ -19,70 +19,169 @@ const FLOOR_RANGE: f32 = 1e-10;
 /// Evidence above this quantile is unusual for the band.
 const USUAL_QUANTILE: f64 = 0.9;
 
-/// Evidence that the energy rose at the start of each hop, in nats, summed over bands.
-///
-/// # Formula
-/// ```text
-/// G = ½ [ (a + b) ln((a·A + b·B)/(a + b)) − a ln A − b ln B ]   for A > B, else 0
-/// ```
-/// is the log-likelihood ratio of "variance A over a values, then B over b" against one variance throughout, for
-/// Gaussian noise: A and B are the mean energies after and before, a = 2·width·window the values they rest on. Each
-/// band is divided by its own 0.9 quantile where that exceeds 1: what fluctuates of itself (speech, rumble) counts
-/// less, so the bands in which this recording's transients stand out decide.
-#[must_use]
-pub fn evidence(bank: &Filterbank, samples: &[f32]) -> Vec<f32> {
-    let mut total = vec![0.0; samples.len().div_ceil(bank.hop())];
-    for band in bank.split(samples) {
-        let own = band_evidence(&band, bank.hop_s());
-        let scale = 1.0 / quantile(&own, USUAL_QUANTILE).max(1.0);
-        for (t, g) in total.iter_mut().zip(own) {
-            *t += scale * g;
-        }
-    }
-    total
+/// The evidence of one stretch, band by band.
+#[derive(Debug)]
+pub struct Evidence {
+    /// Nats for a rise at the start of each hop, summed over bands.
+    pub total: Vec<f32>,
+    bands: Vec<Rise>,
+    hop_s: f64,
 }
 
-fn band_evidence(band: &Band, hop_s: f64) -> Vec<f32> {
-    let window = |shortest_s: f64, values: f64| {
-        crate::units::samples_in(shortest_s.max(values / (2.0 * band.width_hz)), 1.0 / hop_s).max(2)
-    };
-    let (after, before) = (
-        window(AFTER_S, VALUES_AFTER),
-        window(BEFORE_S, VALUES_BEFORE),
-    );
-    let sums = running_sums(&band.energies);
-    let n = band.energies.len();
-    let mean = |from: usize, to: usize| {
-        if to > from {
-            narrow((sums[to] - sums[from]) / real(to - from))
-        } else {
-            0.0
-        }
-    };
-    let greatest = band.energies.iter().copied().fold(0.0, f32::max);
-    let floor =
-        (FLOOR_SHARE * quantile(&band.energies, FLOOR_QUANTILE)).max(FLOOR_RANGE * greatest);
-    if floor <= 0.0 {
-        return vec![0.0; n];
-    }
-    let ratio = LogRatio::new(
-        2.0 * band.width_hz * hop_s * real(after),
-        2.0 * band.width_hz * hop_s * real(before),
-    );
-    (0..n)
-        .map(|k| {
-            // The recording's first instants have no past: nothing can be said to have risen.
-            if k < before {
-                return 0.0;
+/// The evidence of one band.
+#[derive(Debug)]
+struct Rise {
+    band: Band,
+    /// Nats before scaling.
+    own: Vec<f32>,
+    scale: f32,
+    /// Length of the window after, in hops.
+    after: usize,
+    floor: f32,
+}
+
+impl Evidence {
+    /// Evidence that the energy rose at the start of each hop.
+    ///
+    /// # Formula
+    /// ```text
+    /// G = ½ [ (a + b) ln((a·A + b·B)/(a + b)) − a ln A − b ln B ]   for A > B, else 0
+    /// ```
+    /// is the log-likelihood ratio of "variance A over a values after, B over b values before" against one variance
+    /// throughout, for Gaussian noise: A and B are mean energies, a and b = 2·width·window the values they rest on.
+    /// Each band is divided by its own 0.9 quantile where that exceeds 1: what fluctuates of itself (speech, rumble)
+    /// counts less, so the bands in which this recording's transients stand out decide.
+    #[must_use]
+    pub fn of(bank: &Filterbank, samples: &[f32]) -> Self {
+        let mut total = vec![0.0; samples.len().div_ceil(bank.hop())];
+        let bands: Vec<Rise> = bank.split(samples).into_iter().map(|band| Rise::of(band, bank.hop_s())).collect();
+        for band in &bands {
+            for (t, g) in total.iter_mut().zip(&band.own) {
+                *t += band.scale * g;
             }
-            let later = mean(k, (k + after).min(n)) + floor;
-            let earlier = mean(k - before, k) + floor;
-            ratio.of(later / earlier)
-        })
-        .collect()
+        }
+        Self { total, bands, hop_s: bank.hop_s() }
+    }
+
+    /// The hop, with its fraction, at which the sound of a peak begins.
+    ///
+    /// A slow band knows that the energy rose, but not when: its evidence is nearly as high a window earlier. So the
+    /// change is sought between fixed ends, where each value on the wrong side costs its whole likelihood:
+    /// ```text
+    /// L(k) = −½ Σ_bands [ n₁ ln E₁ + n₂ ln E₂ ],   n₁, E₁ values and mean energy before k, n₂, E₂ from k on
+    /// ```
+    #[must_use]
+    pub fn begin(&self, peak: usize) -> f64 {
+        let reach = self.reach(peak);
+        // While the evidence stays high the sound may yet begin; once it has begun, it counts as before and not after.
+        let high = 0.5 * self.total[peak];
+        let ridge = self.total[peak..].iter().take_while(|&&g| g > high).count();
+        let (from, to) = (peak.saturating_sub(reach), (peak + ridge + reach).min(self.total.len()));
+        if to < from + 4 {
+            return real(peak);
+        }
+        let mut likelihood = vec![0.0; to - from];
+        for rise in &self.bands {
+            let weight = 0.5 * f64::from(rise.scale) * 2.0 * rise.band.width_hz * self.hop_s;
+            rise.add_change_likelihood(from, to, weight, &mut likelihood);
+        }
+        let inside = 2..likelihood.len() - 1;
+        let best = inside.max_by(|&a, &b| likelihood[a].total_cmp(&likelihood[b])).unwrap_or(0);
+        real(from + best)
+    }
+
+    /// Hops that the quickest band that speaks for a peak looks ahead.
+    fn reach(&self, peak: usize) -> usize {
+        let voice = |rise: &Rise| rise.scale * rise.own[peak];
+        let loudest = self.bands.iter().map(voice).fold(0.0, f32::max);
+        let speaking = self.bands.iter().filter(|rise| voice(rise) >= SPEAKING * loudest);
+        speaking.map(|rise| rise.after).min().unwrap_or(2)
+    }
 }
 
-/// The formula of [`evidence`] as a function of A/B alone.
+/// A band speaks for a peak if it gives at least this share of what the loudest band gives.
+const SPEAKING: f32 = 0.25;
+
+/// Symmetric filters let a sound be heard before it begins, this much fainter in energy; fainter is not believed.
+const LEAKAGE: f32 = 1e-3;
+
+impl Rise {
+    fn of(band: Band, hop_s: f64) -> Self {
+        let window = |shortest_s: f64, values: f64| {
+            crate::units::samples_in(shortest_s.max(values / (2.0 * band.width_hz)), 1.0 / hop_s).max(2)
+        };
+        let (after, before) = (window(AFTER_S, VALUES_AFTER), window(BEFORE_S, VALUES_BEFORE));
+        let greatest = band.energies.iter().copied().fold(0.0, f32::max);
+        let floor = (FLOOR_SHARE * quantile(&band.energies, FLOOR_QUANTILE)).max(FLOOR_RANGE * greatest);
+        let own = if floor > 0.0 {
+            let per_hop = 2.0 * band.width_hz * hop_s;
+            let ratio = LogRatio::new(per_hop * FALLING_SHARE * real(after), per_hop * real(before));
+            let later = falling_means(&band.energies, after);
+            let earlier = means_before(&band.energies, before);
+            // The recording's first instants have no past: nothing can be said to have risen.
+            let past = |k: usize| if k < before { f32::INFINITY } else { earlier[k] };
+            (0..later.len()).map(|k| ratio.of((later[k] + floor) / (past(k) + floor))).collect()
+        } else {
+            vec![0.0; band.energies.len()]
+        };
+        let scale = 1.0 / quantile(&own, USUAL_QUANTILE).max(1.0);
+        Self { band, own, scale, after, floor }
+    }
+
+    /// Adds `−weight·[n₁ ln E₁ + n₂ ln E₂]` for a change before each hop of a stretch.
+    fn add_change_likelihood(&self, from: usize, to: usize, weight: f64, likelihood: &mut [f64]) {
+        if self.floor <= 0.0 {
+            return;
+        }
+        let energies = &self.band.energies[from..to];
+        let loudest = energies.iter().copied().fold(0.0, f32::max);
+        let floor = f64::from(self.floor.max(LEAKAGE * loudest));
+        let total: f64 = energies.iter().copied().map(f64::from).sum();
+        let count = real(energies.len());
+        let mut before = 0.0;
+        for (k, &energy) in energies.iter().enumerate() {
+            if k > 0 {
+                let (n1, n2) = (real(k), count - real(k));
+                let (e1, e2) = (before / n1 + floor, (total - before).max(0.0) / n2 + floor);
+                likelihood[k] -= weight * (n1 * e1.ln() + n2 * e2.ln());
+            }
+            before += f64::from(energy);
+        }
+    }
+}
+
+/// Values of equal weight that a window with linearly falling weights is worth: (Σw)²/Σw² = ¾ of its length.
+const FALLING_SHARE: f64 = 0.75;
+
+/// Mean of the `window` values from each one on, with weights that fall linearly to nothing.
+///
+/// What is nearest counts most, so the mean is greatest where a sound begins and not anywhere before it.
+fn falling_means(energies: &[f32], window: usize) -> Vec<f32> {
+    let scale = 2.0 / (real(window) * real(window + 1));
+    let (mut flat, mut falling) = (0.0, 0.0);
+    let mut means = vec![0.0; energies.len()];
+    for k in (0..energies.len()).rev() {
+        let energy = f64::from(energies[k]);
+        // One step earlier every weight but the newest falls by one.
+        falling += real(window) * energy - flat;
+        flat += energy - energies.get(k + window).copied().map_or(0.0, f64::from);
+        means[k] = narrow((scale * falling).max(0.0));
+    }
+    means
+}
+
+/// Mean of the `window` values before each one.
+fn means_before(energies: &[f32], window: usize) -> Vec<f32> {
+    let mut sum = 0.0;
+    let mut means = vec![0.0; energies.len()];
+    for k in 0..energies.len() {
+        means[k] = narrow((sum / real(window)).max(0.0));
+        sum += f64::from(energies[k]) - k.checked_sub(window).map_or(0.0, |old| f64::from(energies[old]));
+    }
+    means
+}
+
+/// The formula of [`Evidence::of`] as a function of A/B alone.
 #[derive(Debug, Clone, Copy)]
 struct LogRatio {
     half_values: f32,
@@ -108,16 +207,6 @@ impl LogRatio {
     }
 }
 
-fn running_sums(energies: &[f32]) -> Vec<f64> {
-    let mut sum = 0.0;
-    std::iter::once(0.0)
-        .chain(energies.iter().map(|&e| {
-            sum += f64::from(e);
-            sum
-        }))
-        .collect()
-}
-
 /// The value below which this share of the values lies; 0 of none.
 fn quantile(values: &[f32], share: f64) -> f32 {
     let mut sorted = values.to_vec();
@@ -134,4 +223,49 @@ fn quantile(values: &[f32], share: f64) -> f32 {
 )]
 const fn narrow(x: f64) -> f32 {
     x as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn running_means_are_those_of_the_definition() {
+        let mut rng = crate::random::SplitMix64::new(4);
+        let energies: Vec<f32> = (0..200).map(|_| narrow(rng.uniform())).collect();
+        for window in [2, 3, 17, 199, 300] {
+            let (falling, before) = (falling_means(&energies, window), means_before(&energies, window));
+            for k in 0..200 {
+                let weights: f64 = (1..=window).map(real).sum();
+                let ahead = energies[k..].iter().take(window).enumerate();
+                let slow: f64 = ahead.map(|(j, &e)| real(window - j) * f64::from(e)).sum::<f64>() / weights;
+                assert!((f64::from(falling[k]) - slow).abs() < 1e-6, "window {window}, hop {k}");
+                let behind = &energies[k.saturating_sub(window)..k];
+                let slow = behind.iter().copied().map(f64::from).sum::<f64>() / real(window);
+                assert!((f64::from(before[k]) - slow).abs() < 1e-6, "window {window}, hop {k}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_beginning_of_a_sound_is_found_in_every_band() {
+        let rate = 44_100.0;
+        for hz in [150.0, 600.0, 5_000.0] {
+            let mut rng = crate::random::SplitMix64::new(6);
+            let samples: Vec<f32> = (0..44_100)
+                .map(|i| {
+                    let t = (real(i) - 22_050.0) / rate;
+                    let ring = if t > 0.0 { (-t / 5e-3).exp() * (std::f64::consts::TAU * hz * t).sin() } else { 0.0 };
+                    narrow(0.5 * ring + 1e-4 * rng.normal())
+                })
+                .collect();
+            let bank = Filterbank::new(rate, 0.25e-3, 60.0).unwrap();
+            let evidence = Evidence::of(&bank, &samples);
+            let total = &evidence.total;
+            let top = (0..total.len()).max_by(|&a, &b| total[a].total_cmp(&total[b])).unwrap();
+            let off_s = evidence.begin(top) * bank.hop_s() - 0.5;
+            // A quarter of a period passes before a slow tone is loud.
+            assert!(off_s.abs() < 0.4e-3 + 0.25 / hz, "{hz} Hz: {off_s} s");
+        }
+    }
 }
