@@ -57,6 +57,7 @@ mod motion;
 mod restitution;
 mod root;
 mod spiral;
+mod uncertainty;
 
 pub use ball::{Ball, Oscillator, damping_ratio, damping_ratio_approx};
 pub use bounces::BounceSeries;
@@ -67,3 +68,4 @@ pub use impacts::{Impact, Impacts};
 pub use inverse::{Equation, InputErrors, Inversion};
 pub use law::RestitutionLaw;
 pub use restitution::Restitution;
+pub use uncertainty::{ContactErrors, ParameterErrors};
