@@ -54,7 +54,7 @@ pub enum Rebound {
 pub struct Leaving {
     /// From touching to leaving, ΔT.
     pub contact_time_s: f64,
-    /// Upward speed on leaving, v1.
+    /// Upward speed on leaving, v1: (12) with the weight kept.
     pub speed_m_per_s: f64,
     /// Position on leaving: 0, or below 0 under [`ReleaseRule::ZeroForce`].
     pub position_m: f64,
@@ -150,7 +150,7 @@ impl LinearContact {
         let sag = self.gravity_m_per_s2 / frequency / frequency;
         Rebound::Leaves(Leaving {
             contact_time_s: time / frequency,
-            speed_m_per_s: restitution.value() * speed,
+            speed_m_per_s: restitution.rebound_speed_m_per_s(speed),
             position_m: 0.0 - extra * (outward + extra) * sag,
             restitution,
             release_rule: self.release_rule,

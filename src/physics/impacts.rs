@@ -140,7 +140,7 @@ impl Impacts {
                 contact_time,
             } => {
                 let nominal = restitution.at_trusted(speed);
-                let rebound = self.scattered(nominal.value() * speed, speed);
+                let rebound = self.scattered(nominal.rebound_speed_m_per_s(speed), speed);
                 let rests = contact_time > 0.0
                     && self.flight.rise_at(rebound).1
                         <= rest_depth(nominal, contact_time, &self.flight);

@@ -59,13 +59,18 @@ impl Spiral {
 
     /// How far the deepest point lies below the rest position.
     pub(super) fn depth(&self, u: f64) -> f64 {
-        let exponent = self.log_radius(-u) - self.zeta * self.deepest(u);
-        // Beyond critical damping a slow ball sinks to the rest position without passing it.
-        if exponent.is_nan() {
-            0.0
-        } else {
-            libm::exp(exponent)
+        let beyond_critical = libm::sqrt((-self.s_squared).max(0.0));
+        if u <= self.zeta + beyond_critical && self.s_squared <= 0.0 {
+            // A slow ball sinks to the rest position without passing it.
+            return 0.0;
         }
+        let radius = if self.s_squared > 0.0 {
+            libm::hypot(u - self.zeta, libm::sqrt(self.s_squared))
+        } else {
+            let from_center = u - self.zeta;
+            libm::sqrt(from_center - beyond_critical) * libm::sqrt(from_center + beyond_critical)
+        };
+        radius * libm::exp(-self.zeta * self.deepest(u))
     }
 
     /// `½·ln(1 + 2ζy + y²)`, for either sign of `y`.
