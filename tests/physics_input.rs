@@ -59,9 +59,16 @@ fn contact_parts(x: &[f64], rule: ReleaseRule) -> Result<Vec<f64>, Error> {
 }
 
 fn flight_parts(law: &FlightLaw, x: f64) -> Result<Vec<f64>, Error> {
-    let (hop, (time, speed), (rise, height)) = (law.hop(x)?, law.fall(x)?, law.rise(x)?);
-    let (whole, top, landing) = (hop.time_s, hop.apex_m, hop.landing_speed_m_per_s);
-    Ok(vec![whole, top, landing, time, speed, rise, height])
+    let (hop, fall, rise) = (law.hop(x)?, law.fall(x)?, law.rise(x)?);
+    Ok(vec![
+        hop.time_s,
+        hop.apex_m,
+        hop.landing_speed_m_per_s,
+        fall.time_s,
+        fall.landing_speed_m_per_s,
+        rise.time_s,
+        rise.height_m,
+    ])
 }
 
 fn drop_parts(setup: DropSetup) -> Result<Vec<f64>, Error> {
@@ -225,7 +232,7 @@ const EVERYTHING: &[Tried] = &[
     Tried {
         arguments: &["gravity_m_per_s2", "height_m"],
         call: |x| {
-            let mut parts = vec![FlightLaw::without_air(x[0])?.fall(x[1])?.0];
+            let mut parts = vec![FlightLaw::without_air(x[0])?.fall(x[1])?.time_s];
             parts.extend(flight_parts(&FlightLaw::without_air(x[0])?, x[1])?);
             parts.extend(flight_parts(
                 &FlightLaw::with_terminal_speed(x[0], 8.0)?,
