@@ -195,3 +195,31 @@ fn the_papers_ball_makes_86_bounces_where_its_rest_condition_asks_for_92() {
     assert_eq!(impacts.len(), 86);
     assert!(impacts[85].contact_time_s.is_none() && impacts[84].flight_time_s > 0.0);
 }
+
+#[test]
+fn with_weight_the_intervals_are_geometric_plus_a_fifth_of_the_contact_time() {
+    let ball = ball_of(0.9, 1e-3);
+    let (zeta, frequency) = (ball.damping_ratio(), ball.natural_frequency_rad_per_s());
+    let first_order = 1e-3 - 4.0 * zeta * 1.9 / (frequency * 0.1);
+    assert!((first_order / 1e-3 - 0.19).abs() < 0.005, "{first_order}");
+    let bounce = Bounce::Linear {
+        ball,
+        release_rule: ReleaseRule::ZeroDisplacement,
+    };
+    let flight = FlightLaw::without_air(GRAVITY).unwrap();
+    let drop: Vec<_> = (DropSetup::new(0.3, flight, bounce).impacts().unwrap()).collect();
+    let intervals: Vec<f64> = drop
+        .windows(2)
+        .map(|pair| pair[1].time_s - pair[0].time_s)
+        .collect();
+    for step in [10, 15, 19] {
+        // Three terms of a·rⁱ + C give C.
+        let [a, b, c] = [intervals[0], intervals[step], intervals[2 * step]];
+        let constant = (a * c - b * b) / (a + c - 2.0 * b) / 1e-3;
+        assert!(
+            (0.19..0.225).contains(&constant),
+            "over {} impacts: {constant}",
+            2 * step
+        );
+    }
+}

@@ -5,7 +5,10 @@
     reason = "a failing test should panic"
 )]
 
-use bounce_audio::physics::{Ball, BounceSeries, Oscillator, Restitution, damping_ratio};
+use bounce_audio::physics::{
+    Air, Ball, Bounce, BounceSeries, DropSetup, FlightLaw, Oscillator, Restitution, RestitutionLaw,
+    Sphere, damping_ratio, terminal_speed_m_per_s,
+};
 
 const BOUNCES: usize = 70;
 const TOTAL_TIME_S: f64 = 7.5;
@@ -114,4 +117,36 @@ fn the_ball_of_a_contact_time_of_1_ms_is_the_papers() {
         rounds_to(name, value, paper, paper_unit);
         rounds_to(name, value, computed, unit);
     }
+}
+
+#[test]
+fn drag_left_aside_lowers_the_restitution_that_is_read() {
+    let sphere = Sphere {
+        mass_kg: MASS_KG,
+        diameter_m: 0.038,
+    };
+    let air = Air {
+        drag_coefficient: 0.5,
+        ..Air::default()
+    };
+    let terminal = terminal_speed_m_per_s(9.81, sphere, air).unwrap();
+    let setup = DropSetup {
+        shortest_flight_s: Some(1e-9),
+        ..DropSetup::new(
+            0.305,
+            FlightLaw::with_terminal_speed(9.81, terminal).unwrap(),
+            Bounce::Given {
+                restitution: RestitutionLaw::Constant(Restitution::new(0.94).unwrap()),
+                contact_time_s: 0.0,
+            },
+        )
+    };
+    let total = setup.impacts().unwrap().last().unwrap().time_s;
+    let read = series().restitution_from_total_time_approx(total).unwrap();
+    rounds_to(
+        "e by (30) of a ball with e = 0.94",
+        read.restitution.value(),
+        0.929,
+        1e-3,
+    );
 }

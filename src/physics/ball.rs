@@ -112,6 +112,7 @@ impl Oscillator {
     /// Restitution with the weight left aside; [`Restitution::ELASTIC`] without damping.
     ///
     /// ```text
+    /// (12)  v1 = v0·e
     /// (13)  e = exp(−cπ/(2mω_d)) = exp(−πζ/√((1 − ζ)(1 + ζ)))
     /// ```
     ///
@@ -234,7 +235,7 @@ impl Ball {
         self.mass_kg
     }
 
-    /// Stiffness of the spring.
+    /// Stiffness of the spring. (The paper's "N/mm (or kPa)" is N/mm: a stiffness is no pressure.)
     #[must_use]
     pub const fn stiffness_n_per_m(&self) -> f64 {
         self.stiffness_n_per_m

@@ -12,18 +12,18 @@
 //! angle φ(w) before the top, if that top lies above X = 0:
 //!
 //! ```text
-//! P(w) = Q(u) − 2πζ/s          w: rebound speed; no rebound where the right side is ≤ 0
+//! P(w) = Q(u) − (ζ/s)·(π + τ),   ω_n·ΔT = (θ(u) + τ − φ(w))/s,   τ = π      w = v1·ω_n/g, v1: rebound speed
+//!
 //! P(w) = ∫₀ʷ y dy/(1 + 2ζy + y²) = ½·ln(1 + 2ζw + w²) − (ζ/s)·φ(w),         φ(w) = ∠(1 + ζw, sw)
 //! Q(u) = ∫₀ᵘ y dy/(1 − 2ζy + y²) = ½·ln(1 − 2ζu + u²) − (ζ/s)·(θ(u) − π),   θ(u) = ∠(ζu − 1, su)
-//! ω_n·ΔT = (θ(u) + π − φ(w))/s
 //! ```
 //!
-//! `∠(x, y)` is the angle of the vector, 0 to π. P grows with w from 0 and Q with u, so there is at most one root and no
-//! later crossing to mistake it for.
+//! `∠(x, y)` is the angle of the vector, 0 to π. P grows with w from 0 and Q grows with u: there is no rebound where the
+//! right side is ≤ 0, one root where it is not, and no later crossing to mistake it for.
 //!
-//! Under [`ReleaseRule::ZeroForce`] the same holds for the contact force, which spirals with the same angles turned by
-//! 2β instead of π, where cos β = ζ: put 2β for the π of the half turn in both equations, and the ball leaves at w + 2ζ.
-//! With the angles divided by s going over into areas (atan into artanh) that form holds for ζ ≥ 1 too.
+//! The contact force runs along the same spiral, turned. Under [`ReleaseRule::ZeroForce`] the equations hold with
+//! τ = 2β instead of π, where cos β = ζ, and the ball leaves at w + 2ζ. Written with times (angles divided by s, which go
+//! over from arctangents into areatangents) this form holds for ζ ≥ 1 too.
 
 use super::{Oscillator, Restitution, check, spiral::Spiral};
 use crate::Error;
@@ -54,7 +54,7 @@ pub enum Rebound {
 pub struct Leaving {
     /// From touching to leaving, ΔT.
     pub contact_time_s: f64,
-    /// Upward speed on leaving, v1.
+    /// Upward speed on leaving, v1: (12) with the weight kept.
     pub speed_m_per_s: f64,
     /// Position on leaving: 0, or below 0 under [`ReleaseRule::ZeroForce`].
     pub position_m: f64,
@@ -133,7 +133,7 @@ impl LinearContact {
         let frequency = self.oscillator.natural_frequency_rad_per_s();
         let impact = speed / self.gravity_m_per_s2 * frequency;
         let turn = self.spiral.turn(self.release_rule);
-        let Some((outward, lost)) = self.spiral.outward_speed(impact, turn) else {
+        let Some(outward) = self.spiral.outward(impact, turn) else {
             return Rebound::Stays;
         };
         let zeta = self.oscillator.damping_ratio();
@@ -141,17 +141,17 @@ impl LinearContact {
             ReleaseRule::ZeroDisplacement => 0.0,
             ReleaseRule::ZeroForce => 2.0 * zeta,
         };
-        let restitution = if lost < 0.5 * impact {
-            Restitution::from_trusted_loss((lost - extra) / impact)
+        let restitution = if outward.lost < 0.5 * impact {
+            Restitution::from_trusted_loss((outward.lost - extra) / impact)
         } else {
-            Restitution::from_trusted_value((outward + extra) / impact)
+            Restitution::from_trusted_value((outward.speed + extra) / impact)
         };
-        let time = self.spiral.deepest(impact) + turn - self.spiral.before_top(outward);
+        let time = self.spiral.deepest(impact) + turn - self.spiral.before_top(outward.speed);
         let sag = self.gravity_m_per_s2 / frequency / frequency;
         Rebound::Leaves(Leaving {
             contact_time_s: time / frequency,
-            speed_m_per_s: restitution.value() * speed,
-            position_m: 0.0 - extra * (outward + extra) * sag,
+            speed_m_per_s: restitution.rebound_speed_m_per_s(speed),
+            position_m: 0.0 - extra * (outward.speed + extra) * sag,
             restitution,
             release_rule: self.release_rule,
         })

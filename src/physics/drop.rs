@@ -74,7 +74,7 @@ impl DropSetup {
     /// limit is given.
     pub fn impacts(&self) -> Result<Impacts, Error> {
         check::positive("height_m", self.height_m)?;
-        let (_, speed) = self.flight.fall_from(self.height_m);
+        let speed = self.flight.fall_from(self.height_m).landing_speed_m_per_s;
         let surface = self.surface(check::positive("impact_speed_m_per_s", speed)?)?;
         self.check_limits(surface.brings_to_rest())?;
         if let Some(scatter) = self.scatter {

@@ -82,6 +82,24 @@ pub fn displaced_mass_fraction(sphere: Sphere, air: Air) -> Result<f64, Error> {
     }
 }
 
+/// A fall from rest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fall {
+    /// From release to touching.
+    pub time_s: f64,
+    /// Speed on touching.
+    pub landing_speed_m_per_s: f64,
+}
+
+/// The way up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rise {
+    /// From leaving to the top.
+    pub time_s: f64,
+    /// Height of the top above the start.
+    pub height_m: f64,
+}
+
 /// One flight, from leaving the surface to touching it again at the same height.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Hop {
@@ -169,7 +187,7 @@ impl FlightLaw {
         self.terminal_speed_m_per_s
     }
 
-    /// Time and speed of touching after a fall from rest, in s and m/s.
+    /// A fall from rest.
     ///
     /// ```text
     /// t = √(2h/g),                     v = √(2gh)                  without drag
@@ -180,11 +198,11 @@ impl FlightLaw {
     ///
     /// # Errors
     /// [`Error::Argument`] where the height is not positive and finite.
-    pub fn fall(&self, height_m: f64) -> Result<(f64, f64), Error> {
+    pub fn fall(&self, height_m: f64) -> Result<Fall, Error> {
         check::positive("height_m", height_m).map(|height| self.fall_from(height))
     }
 
-    /// Time to the top and height of the top for a ball going up, in s and m.
+    /// The way up of a ball with this speed.
     ///
     /// ```text
     /// t = v/g,                 h = v²/2g                     without drag
@@ -193,7 +211,7 @@ impl FlightLaw {
     ///
     /// # Errors
     /// [`Error::Argument`] where the speed is not positive and finite.
-    pub fn rise(&self, speed_m_per_s: f64) -> Result<(f64, f64), Error> {
+    pub fn rise(&self, speed_m_per_s: f64) -> Result<Rise, Error> {
         check::positive("speed_m_per_s", speed_m_per_s).map(|speed| self.rise_at(speed))
     }
 
@@ -210,32 +228,42 @@ impl FlightLaw {
         check::positive("speed_m_per_s", speed_m_per_s).map(|speed| self.hop_at(speed))
     }
 
-    pub(super) fn fall_from(&self, height: f64) -> (f64, f64) {
+    pub(super) fn fall_from(&self, height: f64) -> Fall {
         let g = self.gravity_m_per_s2;
         let Some(terminal) = self.terminal_speed_m_per_s else {
-            return (libm::sqrt(2.0 * height / g), libm::sqrt(2.0 * g * height));
+            return Fall {
+                time_s: libm::sqrt(2.0 * height / g),
+                landing_speed_m_per_s: libm::sqrt(2.0 * g * height),
+            };
         };
         let y = (g * height / terminal) / terminal;
         let share = libm::sqrt(-libm::expm1(-2.0 * y));
         // arcosh(exp(y)) with exp(y) factored out of its logarithm: neither overflows nor cancels.
-        let time = (terminal / g) * (y + libm::log1p(share));
-        (time, terminal * share)
+        Fall {
+            time_s: (terminal / g) * (y + libm::log1p(share)),
+            landing_speed_m_per_s: terminal * share,
+        }
     }
 
-    pub(super) fn rise_at(&self, speed: f64) -> (f64, f64) {
+    pub(super) fn rise_at(&self, speed: f64) -> Rise {
         let g = self.gravity_m_per_s2;
         let Some(terminal) = self.terminal_speed_m_per_s else {
-            return (speed / g, speed * (speed / (2.0 * g)));
+            return Rise {
+                time_s: speed / g,
+                height_m: speed * (speed / (2.0 * g)),
+            };
         };
         let a = speed / terminal;
-        let height = terminal * (terminal / (2.0 * g)) * libm::log1p(a * a);
-        ((terminal / g) * libm::atan(a), height)
+        Rise {
+            time_s: (terminal / g) * libm::atan(a),
+            height_m: terminal * (terminal / (2.0 * g)) * libm::log1p(a * a),
+        }
     }
 
     pub(super) fn hop_at(&self, speed: f64) -> Hop {
-        let (rise_time, apex_m) = self.rise_at(speed);
+        let rise = self.rise_at(speed);
         let (fall_time, landing_speed_m_per_s) = match self.terminal_speed_m_per_s {
-            None => (rise_time, speed),
+            None => (rise.time_s, speed),
             Some(terminal) => {
                 let a = speed / terminal;
                 let time = (terminal / self.gravity_m_per_s2) * libm::asinh(a);
@@ -243,8 +271,8 @@ impl FlightLaw {
             }
         };
         Hop {
-            time_s: rise_time + fall_time,
-            apex_m,
+            time_s: rise.time_s + fall_time,
+            apex_m: rise.height_m,
             landing_speed_m_per_s,
         }
     }

@@ -1,6 +1,8 @@
 //! A whole drop, impact by impact, from the closed forms of flight and contact: no time stepping.
 
-use super::{DropSetup, FlightLaw, LinearContact, Rebound, Restitution, RestitutionLaw, Scatter};
+use super::{
+    DropSetup, FlightLaw, Hop, LinearContact, Rebound, Restitution, RestitutionLaw, Scatter,
+};
 use crate::random::SplitMix64;
 
 /// One impact and the flight that follows.
@@ -92,13 +94,13 @@ impl Iterator for Impacts {
             return Some(impact);
         };
         impact.rebound_speed_m_per_s = leaving.speed;
-        if let Some((hop, landing)) = self.fly(&leaving) {
-            (impact.apex_m, impact.flight_time_s) = hop;
+        if let Some(hop) = self.fly(&leaving) {
+            (impact.apex_m, impact.flight_time_s) = (hop.apex_m, hop.time_s);
             if self.left > 0 && impact.flight_time_s >= self.shortest_flight {
                 let time = touch.time.plus(leaving.contact_time);
                 self.next = Some(Touch {
                     time: time.plus(impact.flight_time_s),
-                    speed: landing,
+                    speed: hop.landing_speed_m_per_s,
                 });
             }
         }
@@ -109,7 +111,7 @@ impl Iterator for Impacts {
 impl Impacts {
     /// Starts with the fall. Everything in the setup was checked.
     pub(super) fn new(setup: &DropSetup, surface: Surface) -> Self {
-        let (time, speed) = setup.flight.fall_from(setup.height_m);
+        let fall = setup.flight.fall_from(setup.height_m);
         let with_stream = |scatter: Scatter| (scatter, SplitMix64::new(scatter.seed));
         Self {
             flight: setup.flight,
@@ -118,8 +120,8 @@ impl Impacts {
             shortest_flight: setup.shortest_flight_s.unwrap_or(0.0),
             left: setup.most_impacts.unwrap_or(usize::MAX),
             next: Some(Touch {
-                time: Clock::at(time),
-                speed,
+                time: Clock::at(fall.time_s),
+                speed: fall.landing_speed_m_per_s,
             }),
         }
     }
@@ -140,9 +142,9 @@ impl Impacts {
                 contact_time,
             } => {
                 let nominal = restitution.at_trusted(speed);
-                let rebound = self.scattered(nominal.value() * speed, speed);
+                let rebound = self.scattered(nominal.rebound_speed_m_per_s(speed), speed);
                 let rests = contact_time > 0.0
-                    && self.flight.rise_at(rebound).1
+                    && self.flight.rise_at(rebound).height_m
                         <= rest_depth(nominal, contact_time, &self.flight);
                 Some(Departure {
                     speed: if rests { 0.0 } else { rebound },
@@ -164,19 +166,22 @@ impl Impacts {
         }
     }
 
-    /// Apex and flight time, and landing speed; `None` where the ball does not get off the surface.
-    fn fly(&self, leaving: &Departure) -> Option<((f64, f64), f64)> {
+    /// The flight after leaving; `None` where the ball does not get off the surface.
+    fn fly(&self, leaving: &Departure) -> Option<Hop> {
         if leaving.depth == 0.0 {
-            let hop = self.flight.hop_at(leaving.speed);
-            return Some(((hop.apex_m, hop.time_s), hop.landing_speed_m_per_s));
+            return Some(self.flight.hop_at(leaving.speed));
         }
-        let (rise_time, height) = self.flight.rise_at(leaving.speed);
-        let apex = height - leaving.depth;
-        if apex <= 0.0 {
+        let rise = self.flight.rise_at(leaving.speed);
+        let apex_m = rise.height_m - leaving.depth;
+        if apex_m <= 0.0 {
             return None;
         }
-        let (fall_time, landing) = self.flight.fall_from(apex);
-        Some(((apex, rise_time + fall_time), landing))
+        let fall = self.flight.fall_from(apex_m);
+        Some(Hop {
+            time_s: rise.time_s + fall.time_s,
+            apex_m,
+            landing_speed_m_per_s: fall.landing_speed_m_per_s,
+        })
     }
 }
 

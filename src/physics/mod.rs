@@ -57,13 +57,17 @@ mod motion;
 mod restitution;
 mod root;
 mod spiral;
+mod uncertainty;
 
 pub use ball::{Ball, Oscillator, damping_ratio, damping_ratio_approx};
 pub use bounces::BounceSeries;
 pub use contact::{Leaving, LinearContact, Rebound, ReleaseRule};
 pub use drop::{Bounce, DropSetup, Scatter};
-pub use flight::{Air, FlightLaw, Hop, Sphere, displaced_mass_fraction, terminal_speed_m_per_s};
+pub use flight::{
+    Air, Fall, FlightLaw, Hop, Rise, Sphere, displaced_mass_fraction, terminal_speed_m_per_s,
+};
 pub use impacts::{Impact, Impacts};
 pub use inverse::{Equation, InputErrors, Inversion};
 pub use law::RestitutionLaw;
 pub use restitution::Restitution;
+pub use uncertainty::{ContactErrors, ParameterErrors};

@@ -6,11 +6,14 @@ use crate::Error;
 /// The two basic motions of the damped oscillator, at a time in units of `1/ω_n`.
 ///
 /// ```text
-/// S = exp(−ζτ)·sin(sτ)/s,   C = exp(−ζτ)·cos(sτ),   K = 1 − C − ζS = ∫₀^τ S
+/// S = exp(−ζτ)·sin(sτ)/s,   C = exp(−ζτ)·cos(sτ),   S′ = C − ζS,   K = 1 − C − ζS = ∫₀^τ S
 /// ```
 struct Basis {
+    /// S.
     sine: f64,
-    cosine: f64,
+    /// S′.
+    slope: f64,
+    /// K.
     sag: f64,
 }
 
@@ -27,7 +30,7 @@ impl Basis {
             let decay = libm::exp(-zeta * tau);
             (decay * libm::sin(angle) / s, decay * libm::cos(angle))
         } else {
-            // exp(−ζτ)·sinh(sτ) as a difference, for its factors overflow; s = ζ only as ζ → ∞.
+            // The sum and difference of two decays; as sinh and cosh times exp(−ζτ) they would overflow.
             let slow = libm::exp(-tau / (zeta + s));
             let gap = -libm::expm1(-2.0 * angle);
             let sine = if s > 0.0 {
@@ -37,12 +40,19 @@ impl Basis {
             };
             (sine, slow * (1.0 - 0.5 * gap))
         };
+        let slope = if s_squared < -0.25 {
+            // C − ζS cancels as the fast decay dies out; here it is left out by itself.
+            let (fast, slow) = (zeta + s, 1.0 / (zeta + s));
+            (fast * libm::exp(-fast * tau) - slow * libm::exp(-slow * tau)) / (2.0 * s)
+        } else {
+            cosine - zeta * sine
+        };
         let sag = if tau < SAG_SERIES_BELOW && zeta * tau < SAG_SERIES_BELOW {
             sag_series(zeta, tau)
         } else {
             1.0 - cosine - zeta * sine
         };
-        Self { sine, cosine, sag }
+        Self { sine, slope, sag }
     }
 }
 
@@ -93,14 +103,9 @@ impl LinearContact {
     pub fn velocity_m_per_s(&self, speed_m_per_s: f64, time_s: f64) -> Result<f64, Error> {
         let speed = check::positive("speed_m_per_s", speed_m_per_s)?;
         let time = check::non_negative("time_s", time_s)?;
-        let oscillator = self.oscillator();
-        let (frequency, zeta) = (
-            oscillator.natural_frequency_rad_per_s(),
-            oscillator.damping_ratio(),
-        );
-        let basis = Basis::at(zeta, frequency * time);
-        let weight = self.gravity_m_per_s2() / frequency;
-        Ok(-speed * basis.cosine + (zeta * speed - weight) * basis.sine)
+        let frequency = self.oscillator().natural_frequency_rad_per_s();
+        let basis = Basis::at(self.oscillator().damping_ratio(), frequency * time);
+        Ok(-speed * basis.slope - self.gravity_m_per_s2() / frequency * basis.sine)
     }
 }
 
@@ -136,8 +141,7 @@ impl Oscillator {
     ) -> Result<f64, Error> {
         let speed = check::positive("speed_m_per_s", speed_m_per_s)?;
         let time = check::non_negative("time_s", time_s)?;
-        let zeta = self.damping_ratio();
-        let basis = Basis::at(zeta, self.natural_frequency_rad_per_s() * time);
-        Ok(speed * (zeta * basis.sine - basis.cosine))
+        let frequency = self.natural_frequency_rad_per_s();
+        Ok(-speed * Basis::at(self.damping_ratio(), frequency * time).slope)
     }
 }

@@ -86,6 +86,18 @@ impl Restitution {
         self.ln
     }
 
+    /// Speed after an impact at this speed.
+    ///
+    /// A lively ball loses what `1 − e` says: the rounding of `e` would add up over thousands of bounces.
+    #[must_use]
+    pub fn rebound_speed_m_per_s(self, impact_speed_m_per_s: f64) -> f64 {
+        if self.one_minus < 0.5 {
+            impact_speed_m_per_s - self.one_minus * impact_speed_m_per_s
+        } else {
+            self.value * impact_speed_m_per_s
+        }
+    }
+
     pub(super) fn from_trusted_value(value: f64) -> Self {
         let one_minus = 1.0 - value;
         // From ½ up the subtraction is exact, and ln1p of it keeps what ln of a number near 1 would lose.

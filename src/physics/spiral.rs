@@ -12,6 +12,13 @@ pub(super) struct Spiral {
     s_squared: f64,
 }
 
+/// Leaving: the speed `w` and the loss `u − w`, each to full precision.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Outward {
+    pub(super) speed: f64,
+    pub(super) lost: f64,
+}
+
 impl Spiral {
     pub(super) fn new(zeta: f64) -> Self {
         Self {
@@ -20,7 +27,7 @@ impl Spiral {
         }
     }
 
-    /// Time between the deepest point (least force) and the top (the least force after): π/s, or 2β/s for zero force.
+    /// Time from the deepest point to the top, π/s; for zero force, to the least force after it, 2β/s.
     pub(super) fn turn(&self, rule: ReleaseRule) -> f64 {
         match rule {
             ReleaseRule::ZeroDisplacement => std::f64::consts::PI / libm::sqrt(self.s_squared),
@@ -59,13 +66,18 @@ impl Spiral {
 
     /// How far the deepest point lies below the rest position.
     pub(super) fn depth(&self, u: f64) -> f64 {
-        let exponent = self.log_radius(-u) - self.zeta * self.deepest(u);
-        // Beyond critical damping a slow ball sinks to the rest position without passing it.
-        if exponent.is_nan() {
-            0.0
-        } else {
-            libm::exp(exponent)
+        let beyond_critical = libm::sqrt((-self.s_squared).max(0.0));
+        if u <= self.zeta + beyond_critical && self.s_squared <= 0.0 {
+            // A slow ball sinks to the rest position without passing it.
+            return 0.0;
         }
+        let radius = if self.s_squared > 0.0 {
+            libm::hypot(u - self.zeta, libm::sqrt(self.s_squared))
+        } else {
+            let from_center = u - self.zeta;
+            libm::sqrt(from_center - beyond_critical) * libm::sqrt(from_center + beyond_critical)
+        };
+        radius * libm::exp(-self.zeta * self.deepest(u))
     }
 
     /// `½·ln(1 + 2ζy + y²)`, for either sign of `y`.
@@ -110,15 +122,21 @@ impl Spiral {
         self.log_radius(-u) - self.zeta * (self.deepest(u) + turn)
     }
 
-    /// The speed `w` of leaving after an impact at `u`, and `u − w`, each to full precision; `None` if it stays.
-    pub(super) fn outward_speed(&self, u: f64, turn: f64) -> Option<(f64, f64)> {
+    /// The speed `w` of leaving after an impact at `u`, `None` if it stays.
+    pub(super) fn outward(&self, u: f64, turn: f64) -> Option<Outward> {
         let left = self.left_over(u, turn);
         if self.outward_integral(0.5 * u) < left {
             let lost = self.small_loss(u, turn);
-            Some((u - lost, lost))
+            Some(Outward {
+                speed: u - lost,
+                lost,
+            })
         } else if left > 0.0 {
-            let outward = self.large_loss(u, left);
-            Some((outward, u - outward))
+            let speed = self.large_loss(u, left);
+            Some(Outward {
+                speed,
+                lost: u - speed,
+            })
         } else {
             None
         }
