@@ -4,18 +4,38 @@ fn main() {
         let r = wav::read_file(std::path::Path::new(&f)).unwrap();
         let rate = f64::from(r.sample_rate_hz);
         let t0 = std::time::Instant::now();
-        let ch = (0..r.channels.len()).map(|c| (c, detect::clarity(&detect::candidates(&r.channels[c], rate, &detect::Settings::default()).unwrap()))).max_by(|a,b| a.1.total_cmp(&b.1)).unwrap().0;
+        let ch = (0..r.channels.len())
+            .map(|c| {
+                (
+                    c,
+                    detect::clarity(
+                        &detect::candidates(&r.channels[c], rate, &detect::Settings::default())
+                            .unwrap(),
+                    ),
+                )
+            })
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .unwrap()
+            .0;
         let c = detect::candidates(&r.channels[ch], rate, &detect::Settings::default()).unwrap();
         let t1 = std::time::Instant::now();
         let ev: Vec<_> = c
             .iter()
             .map(|c| sequence::Event {
                 time_s: c.time_s,
-                strength: c.strength,
+                strength: c.strength, jitter_s: c.jitter_s,
             })
             .collect();
         let found = sequence::find(&ev, &sequence::Settings::default()).unwrap();
-        if let Ok(w)=std::env::var("WIN"){let (a,b)=w.split_once(",").unwrap();let (a,b):(f64,f64)=(a.parse().unwrap(),b.parse().unwrap());for c in &c{if c.time_s>a&&c.time_s<b&&c.strength>8.0{println!("  c {:.4} {:.1}",c.time_s,c.strength);}}}
+        if let Ok(w) = std::env::var("WIN") {
+            let (a, b) = w.split_once(",").unwrap();
+            let (a, b): (f64, f64) = (a.parse().unwrap(), b.parse().unwrap());
+            for c in &c {
+                if c.time_s > a && c.time_s < b && c.strength > 0.0 {
+                    println!("  c {:.4} {:.1}", c.time_s, c.strength);
+                }
+            }
+        }
         println!(
             "{f} ch {ch} cands {} detect {:?} seq {:?} drops {} rej {}",
             c.len(),

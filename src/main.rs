@@ -19,7 +19,10 @@ fn main() -> ExitCode {
 
 fn print(outcome: Outcome) -> Result<ExitCode, Error> {
     let mut stdout = std::io::stdout().lock();
-    match stdout.write_all(outcome.output.as_bytes()).and_then(|()| stdout.flush()) {
+    match stdout
+        .write_all(outcome.output.as_bytes())
+        .and_then(|()| stdout.flush())
+    {
         // Whoever closed the pipe (`| head`) has read enough.
         Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(outcome.code()),
         result => result.map(|()| outcome.code()).map_err(Error::from),

@@ -10,7 +10,11 @@ use crate::report::{Drop, Estimates, Impact, Model, Restitution, Scatter, Status
 use crate::sequence::{Chain, Link};
 
 /// Times the impacts of a chain and fits them.
-pub(super) fn measure(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings) -> Result<Drop, Error> {
+pub(super) fn measure(
+    stretch: &Stretch<'_>,
+    chain: &Chain,
+    settings: &Settings,
+) -> Result<Drop, Error> {
     let timed = times(stretch, chain, settings);
     let flights = Flights::between(&timed);
     let ratio = flights.ratio();
@@ -33,7 +37,8 @@ pub(super) fn measure(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings)
     }
     Ok(Drop {
         bounces: chain.heard(),
-        observed_time_s: timed.last().map_or(0.0, |i| i.time_s) - timed.first().map_or(0.0, |i| i.time_s),
+        observed_time_s: timed.last().map_or(0.0, |i| i.time_s)
+            - timed.first().map_or(0.0, |i| i.time_s),
         total_time_s: total.map(|t| t.total_time_s),
         restitution: ratio.map(|estimate| Restitution {
             estimate,
@@ -41,7 +46,10 @@ pub(super) fn measure(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings)
             method: "flight_ratio",
         }),
         estimates: estimates(ratio, total, first_rebound),
-        scatter: Scatter { timing_std_s: median_std(&timed), bounce_std: flights.scatter() },
+        scatter: Scatter {
+            timing_std_s: median_std(&timed),
+            bounce_std: flights.scatter(),
+        },
         model: constant_model(ratio),
         ball: None,
         evidence_nats: chain.evidence,
@@ -54,17 +62,43 @@ pub(super) fn measure(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings)
 /// The heard impacts timed below a sample; those inferred stay where their neighbours put them.
 fn times(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings) -> Vec<Timed> {
     let heard = |l: &&Link| l.event.is_some();
-    let coarse: Vec<f64> = chain.links.iter().filter(heard).map(|l| l.time_s - stretch.start_s).collect();
-    let refined = refine(stretch.samples, stretch.sample_rate_hz, &coarse, stretch.hop_s, settings.timing);
+    let coarse: Vec<f64> = chain
+        .links
+        .iter()
+        .filter(heard)
+        .map(|l| l.time_s - stretch.start_s)
+        .collect();
+    let refined = refine(
+        stretch.samples,
+        stretch.sample_rate_hz,
+        &coarse,
+        stretch.hop_s,
+        settings.timing,
+    );
     let mut refined = refined.into_iter();
-    let timed = chain.links.iter().map(|link| match link.event.and_then(|_| refined.next()) {
-        Some(t) => Timed { time_s: stretch.start_s + t.time_s, std_s: t.std_s, heard: true },
-        None => Timed { time_s: link.time_s, std_s: 0.0, heard: false },
-    });
+    let timed = chain
+        .links
+        .iter()
+        .map(|link| match link.event.and_then(|_| refined.next()) {
+            Some(t) => Timed {
+                time_s: stretch.start_s + t.time_s,
+                std_s: t.std_s,
+                heard: true,
+            },
+            None => Timed {
+                time_s: link.time_s,
+                std_s: 0.0,
+                heard: false,
+            },
+        });
     timed.collect()
 }
 
-fn estimates(ratio: Option<Estimate>, total: Option<TotalTime>, first_rebound: Option<Estimate>) -> Estimates {
+fn estimates(
+    ratio: Option<Estimate>,
+    total: Option<TotalTime>,
+    first_rebound: Option<Estimate>,
+) -> Estimates {
     Estimates {
         flight_ratio: ratio,
         eq25: total.and_then(|t| t.eq25),
@@ -76,7 +110,11 @@ fn estimates(ratio: Option<Estimate>, total: Option<TotalTime>, first_rebound: O
 fn constant_model(ratio: Option<Estimate>) -> Model {
     let mut parameters = serde_json::Map::new();
     parameters.insert("restitution".to_owned(), ratio.map(|e| e.value).into());
-    Model { selected: "constant", parameters, candidates: vec!["constant".to_owned()] }
+    Model {
+        selected: "constant",
+        parameters,
+        candidates: vec!["constant".to_owned()],
+    }
 }
 
 fn median_std(timed: &[Timed]) -> Option<f64> {
@@ -85,7 +123,13 @@ fn median_std(timed: &[Timed]) -> Option<f64> {
     stds.get(stds.len() / 2).copied()
 }
 
-fn impacts(stretch: &Stretch<'_>, chain: &Chain, timed: &[Timed], flights: &Flights, gravity: f64) -> Vec<Impact> {
+fn impacts(
+    stretch: &Stretch<'_>,
+    chain: &Chain,
+    timed: &[Timed],
+    flights: &Flights,
+    gravity: f64,
+) -> Vec<Impact> {
     let status = |link: &Link| match (link.event, link.doubtful) {
         (None, _) => Status::Inferred,
         (Some(_), true) => Status::Doubtful,
@@ -102,7 +146,11 @@ fn impacts(stretch: &Stretch<'_>, chain: &Chain, timed: &[Timed], flights: &Flig
             Impact {
                 time_s: t.time_s,
                 time_std_s: t.heard.then_some(t.std_s),
-                level_db: if t.heard { level_db(stretch, t.time_s) } else { None },
+                level_db: if t.heard {
+                    level_db(stretch, t.time_s)
+                } else {
+                    None
+                },
                 interval_s: flight,
                 ratio: flight.zip(before).map(|(now, before)| now / before),
                 rebound_height_m: flight.map(|t| gravity * t * t / 8.0),

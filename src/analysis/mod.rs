@@ -47,7 +47,11 @@ impl Default for Settings {
 impl Settings {
     fn check(&self) -> Result<(), Error> {
         let positive = |name, value: f64| {
-            if value.is_finite() && value > 0.0 { Ok(()) } else { Err(Error::argument(name, value, "above 0")) }
+            if value.is_finite() && value > 0.0 {
+                Ok(())
+            } else {
+                Err(Error::argument(name, value, "above 0"))
+            }
         };
         positive("gravity", self.gravity_m_per_s2)?;
         self.height_m.map_or(Ok(()), |h| positive("height", h))?;
@@ -57,7 +61,9 @@ impl Settings {
             }
         }
         match (self.start_s, self.end_s) {
-            (Some(start), Some(end)) if end <= start => Err(Error::argument("end", end, "after the start")),
+            (Some(start), Some(end)) if end <= start => {
+                Err(Error::argument("end", end, "after the start"))
+            }
             _ => Ok(()),
         }
     }
@@ -122,7 +128,11 @@ impl<'a> Stretch<'a> {
 ///
 /// # Errors
 /// [`Error::Argument`] for a setting out of range or a rate too low to listen at.
-pub fn analyze(samples: &[f32], sample_rate_hz: f64, settings: &Settings) -> Result<Analysis, Error> {
+pub fn analyze(
+    samples: &[f32],
+    sample_rate_hz: f64,
+    settings: &Settings,
+) -> Result<Analysis, Error> {
     settings.check()?;
     let stretch = Stretch::new(samples, sample_rate_hz, settings)?;
     let candidates = detect::candidates(stretch.samples, sample_rate_hz, &settings.detect)?;
@@ -144,20 +154,37 @@ pub fn analyze_clearest(
         let stretch = Stretch::new(samples, sample_rate_hz, settings)?;
         let candidates = detect::candidates(stretch.samples, sample_rate_hz, &settings.detect)?;
         let clarity = detect::clarity(&candidates);
-        if best.as_ref().is_none_or(|(_, highest, ..)| clarity > *highest) {
+        if best
+            .as_ref()
+            .is_none_or(|(_, highest, ..)| clarity > *highest)
+        {
             best = Some((index, clarity, stretch, candidates));
         }
     }
-    let (index, _, stretch, candidates) = best.ok_or_else(|| Error::argument("channels", 0.0, "at least one"))?;
+    let (index, _, stretch, candidates) =
+        best.ok_or_else(|| Error::argument("channels", 0.0, "at least one"))?;
     Ok((index, explain(&stretch, &candidates, settings)?))
 }
 
-fn explain(stretch: &Stretch<'_>, candidates: &[Candidate], settings: &Settings) -> Result<Analysis, Error> {
-    let events: Vec<Event> =
-        candidates.iter().map(|c| Event { time_s: stretch.start_s + c.time_s, strength: c.strength }).collect();
+fn explain(
+    stretch: &Stretch<'_>,
+    candidates: &[Candidate],
+    settings: &Settings,
+) -> Result<Analysis, Error> {
+    let events: Vec<Event> = candidates
+        .iter()
+        .map(|c| Event {
+            time_s: stretch.start_s + c.time_s,
+            jitter_s: c.jitter_s,
+            strength: c.strength,
+        })
+        .collect();
     let found = sequence::find(&events, &settings.sequence)?;
-    let drops: Vec<Drop> =
-        found.drops.iter().map(|chain| drop::measure(stretch, chain, settings)).collect::<Result<_, _>>()?;
+    let drops: Vec<Drop> = found
+        .drops
+        .iter()
+        .map(|chain| drop::measure(stretch, chain, settings))
+        .collect::<Result<_, _>>()?;
     Ok(Analysis {
         rejected: found.rejected.iter().map(rejected).collect(),
         rejected_weak: found.weak,
@@ -169,13 +196,32 @@ fn explain(stretch: &Stretch<'_>, candidates: &[Candidate], settings: &Settings)
 /// An event's reason in words.
 fn rejected(event: &sequence::Rejected) -> Rejected {
     let (reason, detail) = match event.reason {
-        Reason::Echo { delay_s } => {
-            ("echo", format!("follows many impacts by {:.1} ms: an echo or a part of their sound", 1e3 * delay_s))
+        Reason::Echo { delay_s } => (
+            "echo",
+            format!(
+                "follows many impacts by {:.1} ms: an echo or a part of their sound",
+                1e3 * delay_s
+            ),
+        ),
+        Reason::Near { offset_s } if offset_s < 0.0 => {
+            ("near_impact", "just before an impact".to_owned())
         }
-        Reason::Near { offset_s } if offset_s < 0.0 => ("near_impact", "just before an impact".to_owned()),
-        Reason::Near { .. } => ("near_impact", "within 5 ms after an impact: its own sound".to_owned()),
-        Reason::BetweenImpacts => ("off_sequence", "between two impacts, where no flight ends".to_owned()),
-        Reason::NoSequence => ("no_sequence", "belongs to no sequence of shrinking flights".to_owned()),
+        Reason::Near { .. } => (
+            "near_impact",
+            "within 5 ms after an impact: its own sound".to_owned(),
+        ),
+        Reason::BetweenImpacts => (
+            "off_sequence",
+            "between two impacts, where no flight ends".to_owned(),
+        ),
+        Reason::NoSequence => (
+            "no_sequence",
+            "belongs to no sequence of shrinking flights".to_owned(),
+        ),
     };
-    Rejected { time_s: event.time_s, reason, detail }
+    Rejected {
+        time_s: event.time_s,
+        reason,
+        detail,
+    }
 }

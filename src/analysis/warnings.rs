@@ -16,13 +16,20 @@ const CLIPPED_SAMPLES: usize = 3;
 const NOTICEABLE: f64 = 30.0;
 
 /// What the recording as a whole calls for.
-pub(super) fn of_recording(stretch: &Stretch<'_>, drops: &[Drop], events: &[Event]) -> Vec<Warning> {
+pub(super) fn of_recording(
+    stretch: &Stretch<'_>,
+    drops: &[Drop],
+    events: &[Event],
+) -> Vec<Warning> {
     if !drops.is_empty() {
         return Vec::new();
     }
     let peak = stretch.samples.iter().map(|x| x.abs()).fold(0.0, f32::max);
     if peak <= 0.0 {
-        return vec![Warning::new("silence", "the recording is silent: every sample is zero")];
+        return vec![Warning::new(
+            "silence",
+            "the recording is silent: every sample is zero",
+        )];
     }
     let noticeable = events.iter().filter(|e| e.strength >= NOTICEABLE).count();
     let message = match noticeable {
@@ -46,32 +53,56 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
     let mut warnings = Vec::new();
     let heard = chain.heard();
     if heard < FEW_IMPACTS {
-        let message = format!("only {heard} impacts: the error of e rests on {} ratios. Drop from higher", heard - 2);
+        let message = format!(
+            "only {heard} impacts: the error of e rests on {} ratios. Drop from higher",
+            heard - 2
+        );
         warnings.push(Warning::new("few_impacts", message));
     }
     let inferred = chain.links.len() - heard;
     if inferred > 0 {
-        let message =
-            format!("{inferred} of {} impacts were not heard and are inferred from their neighbours", timed.len());
+        let message = format!(
+            "{inferred} of {} impacts were not heard and are inferred from their neighbours",
+            timed.len()
+        );
         warnings.push(Warning::new("inferred", message));
     }
-    let doubtful = chain.links.iter().filter(|l| l.event.is_some() && l.doubtful).count();
+    let doubtful = chain
+        .links
+        .iter()
+        .filter(|l| l.event.is_some() && l.doubtful)
+        .count();
     if doubtful > 0 {
-        let message = format!("{doubtful} impacts are doubtful: noise offers sounds as strong nearby");
+        let message =
+            format!("{doubtful} impacts are doubtful: noise offers sounds as strong nearby");
         warnings.push(Warning::new("doubtful", message));
     }
-    let clipped = timed.iter().filter(|t| t.heard && is_clipped(stretch, t.time_s)).count();
+    let clipped = timed
+        .iter()
+        .filter(|t| t.heard && is_clipped(stretch, t.time_s))
+        .count();
     if clipped > 0 {
         let message = format!("{clipped} impacts reach full scale: lower the recording level");
         warnings.push(Warning::new("clipped", message));
     }
-    let (first_s, last_s) = (timed.first().map_or(0.0, |t| t.time_s), timed.last().map_or(0.0, |t| t.time_s));
+    let (first_s, last_s) = (
+        timed.first().map_or(0.0, |t| t.time_s),
+        timed.last().map_or(0.0, |t| t.time_s),
+    );
     let lone = |pair: &[Timed]| pair[1].time_s - pair[0].time_s;
-    if timed.windows(2).last().is_some_and(|pair| last_s + lone(pair) > stretch.end_s()) {
+    if timed
+        .windows(2)
+        .last()
+        .is_some_and(|pair| last_s + lone(pair) > stretch.end_s())
+    {
         let message = "the recording ends before the ball rests: record for longer, or lift --end";
         warnings.push(Warning::new("cut_end", message));
     }
-    if timed.windows(2).next().is_some_and(|pair| first_s - lone(pair) < stretch.start_s) {
+    if timed
+        .windows(2)
+        .next()
+        .is_some_and(|pair| first_s - lone(pair) < stretch.start_s)
+    {
         let message = "the recording starts less than a flight before the first impact heard: earlier ones may be \
                        missing. Start recording before the drop";
         warnings.push(Warning::new("late_start", message));
@@ -92,14 +123,20 @@ pub(super) fn of_total_time(
 ) -> Option<Warning> {
     let last_s = timed.last().map_or(0.0, |t| t.time_s);
     match *solved {
-        Err(Missing::FirstImpact { first_flight_s, expected_s }) => Some(Warning::new(
+        Err(Missing::FirstImpact {
+            first_flight_s,
+            expected_s,
+        }) => Some(Warning::new(
             "first_impact_missing",
             format!(
                 "the first flight heard is {first_flight_s:.3} s where the height makes it about {expected_s:.3} s: \
                  the first impact is missing or --height is wrong, so equation (25) does not apply"
             ),
         )),
-        Err(Missing::Height { first_flight_s, longest_s }) => Some(Warning::new(
+        Err(Missing::Height {
+            first_flight_s,
+            longest_s,
+        }) => Some(Warning::new(
             "height_too_small",
             format!(
                 "the first flight is {first_flight_s:.3} s, but from this height it cannot exceed {longest_s:.3} s: \
@@ -120,9 +157,15 @@ pub(super) fn of_total_time(
                  faint. There is no T_total, and equation (25) does not apply"
             ),
         )),
-        Ok(TotalTime { eq25: None, total_time_s, .. }) => Some(Warning::new(
+        Ok(TotalTime {
+            eq25: None,
+            total_time_s,
+            ..
+        }) => Some(Warning::new(
             "no_root",
-            format!("no e gives a total time of {total_time_s:.3} s by equation (25): check --height"),
+            format!(
+                "no e gives a total time of {total_time_s:.3} s by equation (25): check --height"
+            ),
         )),
         Ok(_) => None,
     }

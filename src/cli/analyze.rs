@@ -96,7 +96,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         Format::Csv => csv::to_csv(&report),
         Format::Json => json::to_json(&report).map_err(io::Error::from)?,
     };
-    Ok(Outcome { output, status: u8::from(report.analysis.drops.is_empty()) })
+    Ok(Outcome {
+        output,
+        status: u8::from(report.analysis.drops.is_empty()),
+    })
 }
 
 fn read(file: &Path) -> Result<Recording, Error> {
@@ -113,15 +116,21 @@ fn listen(arguments: &Arguments, recording: Recording) -> Result<Report, Error> 
     let (channel, mut analysis) = match arguments.channel {
         Channel::Best => analyze_clearest(&recording.channels, rate, &settings)?,
         Channel::Number(number) => {
-            let samples = recording.channels.get(number - 1).ok_or_else(|| Error::Argument {
-                argument: "--channel",
-                got: number.to_string(),
-                expected: "a channel that the recording has",
-            })?;
+            let samples = recording
+                .channels
+                .get(number - 1)
+                .ok_or_else(|| Error::Argument {
+                    argument: "--channel",
+                    got: number.to_string(),
+                    expected: "a channel that the recording has",
+                })?;
             (number - 1, analyze(samples, rate, &settings)?)
         }
     };
-    let repairs = recording.warnings.into_iter().map(|message| report::Warning::new("repaired", message));
+    let repairs = recording
+        .warnings
+        .into_iter()
+        .map(|message| report::Warning::new("repaired", message));
     analysis.warnings.extend(repairs);
     Ok(Report {
         schema_version: report::SCHEMA_VERSION,

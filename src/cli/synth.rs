@@ -53,7 +53,9 @@ fn write_wav(path: &Path, made: &Synthetic) -> Result<(), Error> {
     let mut writer = hound::WavWriter::create(path, spec).map_err(from_hound)?;
     for &x in &made.samples {
         #[expect(clippy::cast_possible_truncation, reason = "samples lie in ±1")]
-        writer.write_sample((f64::from(x) * 32_767.0).round() as i16).map_err(from_hound)?;
+        writer
+            .write_sample((f64::from(x) * 32_767.0).round() as i16)
+            .map_err(from_hound)?;
     }
     writer.finalize().map_err(from_hound)
 }

@@ -32,7 +32,11 @@ pub fn pick(values: &[f32], separation: f64, lowest: f64) -> Vec<Peak> {
         // Of equals the first is the peak.
         let highest = before.iter().all(|&v| v < height) && after.iter().all(|&v| v <= height);
         if highest && stands_out(values, i) {
-            peaks.push(Peak { index: i, position: real(i) + vertex(values, i), height: f64::from(height) });
+            peaks.push(Peak {
+                index: i,
+                position: real(i) + vertex(values, i),
+                height: f64::from(height),
+            });
         }
     }
     peaks
@@ -40,11 +44,13 @@ pub fn pick(values: &[f32], separation: f64, lowest: f64) -> Vec<Peak> {
 
 /// Whether the values fall to half of this one before they exceed it, on both sides.
 fn stands_out(values: &[f32], i: usize) -> bool {
-    falls_first(values[..i].iter().rev(), values[i]) && falls_first(values[i + 1..].iter(), values[i])
+    falls_first(values[..i].iter().rev(), values[i])
+        && falls_first(values[i + 1..].iter(), values[i])
 }
 
 fn falls_first<'a>(mut side: impl Iterator<Item = &'a f32>, height: f32) -> bool {
-    side.find(|&&v| v > height || v <= (1.0 - PROMINENCE) * height).is_none_or(|&v| v <= height)
+    side.find(|&&v| v > height || v <= (1.0 - PROMINENCE) * height)
+        .is_none_or(|&v| v <= height)
 }
 
 /// Offset in ±½ of the vertex of the parabola through three neighbouring values; 0 at the ends.

@@ -54,13 +54,21 @@ impl Evidence {
     #[must_use]
     pub fn of(bank: &Filterbank, samples: &[f32]) -> Self {
         let mut total = vec![0.0; samples.len().div_ceil(bank.hop())];
-        let bands: Vec<Rise> = bank.split(samples).into_iter().map(|band| Rise::of(band, bank.hop_s())).collect();
+        let bands: Vec<Rise> = bank
+            .split(samples)
+            .into_iter()
+            .map(|band| Rise::of(band, bank.hop_s()))
+            .collect();
         for band in &bands {
             for (t, g) in total.iter_mut().zip(&band.own) {
                 *t += band.scale * g;
             }
         }
-        Self { total, bands, hop_s: bank.hop_s() }
+        Self {
+            total,
+            bands,
+            hop_s: bank.hop_s(),
+        }
     }
 
     /// The hop, with its fraction, at which the sound of a peak begins.
@@ -76,7 +84,10 @@ impl Evidence {
         // While the evidence stays high the sound may yet begin; once it has begun, it counts as before and not after.
         let high = 0.5 * self.total[peak];
         let ridge = self.total[peak..].iter().take_while(|&&g| g > high).count();
-        let (from, to) = (peak.saturating_sub(reach), (peak + ridge + reach).min(self.total.len()));
+        let (from, to) = (
+            peak.saturating_sub(reach),
+            (peak + ridge + reach).min(self.total.len()),
+        );
         if to < from + 4 {
             return real(peak);
         }
@@ -86,18 +97,32 @@ impl Evidence {
             rise.add_change_likelihood(from, to, weight, &mut likelihood);
         }
         let inside = 2..likelihood.len() - 1;
-        let best = inside.max_by(|&a, &b| likelihood[a].total_cmp(&likelihood[b])).unwrap_or(0);
+        let best = inside
+            .max_by(|&a, &b| likelihood[a].total_cmp(&likelihood[b]))
+            .unwrap_or(0);
         real(from + best)
+    }
+
+    /// How far the time of a peak may be off, in seconds.
+    #[must_use]
+    pub fn jitter_s(&self, peak: usize) -> f64 {
+        self.hop_s * (JITTER_SHARE * real(self.reach(peak))).max(0.5)
     }
 
     /// Hops that the quickest band that speaks for a peak looks ahead.
     fn reach(&self, peak: usize) -> usize {
         let voice = |rise: &Rise| rise.scale * rise.own[peak];
         let loudest = self.bands.iter().map(voice).fold(0.0, f32::max);
-        let speaking = self.bands.iter().filter(|rise| voice(rise) >= SPEAKING * loudest);
+        let speaking = self
+            .bands
+            .iter()
+            .filter(|rise| voice(rise) >= SPEAKING * loudest);
         speaking.map(|rise| rise.after).min().unwrap_or(2)
     }
 }
+
+/// A change is located to about this share of the window that it was found with.
+const JITTER_SHARE: f64 = 0.1;
 
 /// A band speaks for a peak if it gives at least this share of what the loudest band gives.
 const SPEAKING: f32 = 0.25;
@@ -108,24 +133,46 @@ const LEAKAGE: f32 = 1e-3;
 impl Rise {
     fn of(band: Band, hop_s: f64) -> Self {
         let window = |shortest_s: f64, values: f64| {
-            crate::units::samples_in(shortest_s.max(values / (2.0 * band.width_hz)), 1.0 / hop_s).max(2)
+            crate::units::samples_in(shortest_s.max(values / (2.0 * band.width_hz)), 1.0 / hop_s)
+                .max(2)
         };
-        let (after, before) = (window(AFTER_S, VALUES_AFTER), window(BEFORE_S, VALUES_BEFORE));
+        let (after, before) = (
+            window(AFTER_S, VALUES_AFTER),
+            window(BEFORE_S, VALUES_BEFORE),
+        );
         let greatest = band.energies.iter().copied().fold(0.0, f32::max);
-        let floor = (FLOOR_SHARE * quantile(&band.energies, FLOOR_QUANTILE)).max(FLOOR_RANGE * greatest);
+        let floor =
+            (FLOOR_SHARE * quantile(&band.energies, FLOOR_QUANTILE)).max(FLOOR_RANGE * greatest);
         let own = if floor > 0.0 {
             let per_hop = 2.0 * band.width_hz * hop_s;
-            let ratio = LogRatio::new(per_hop * FALLING_SHARE * real(after), per_hop * real(before));
+            let ratio = LogRatio::new(
+                per_hop * FALLING_SHARE * real(after),
+                per_hop * real(before),
+            );
             let later = falling_means(&band.energies, after);
             let earlier = means_before(&band.energies, before);
             // The recording's first instants have no past: nothing can be said to have risen.
-            let past = |k: usize| if k < before { f32::INFINITY } else { earlier[k] };
-            (0..later.len()).map(|k| ratio.of((later[k] + floor) / (past(k) + floor))).collect()
+            let past = |k: usize| {
+                if k < before {
+                    f32::INFINITY
+                } else {
+                    earlier[k]
+                }
+            };
+            (0..later.len())
+                .map(|k| ratio.of((later[k] + floor) / (past(k) + floor)))
+                .collect()
         } else {
             vec![0.0; band.energies.len()]
         };
         let scale = 1.0 / quantile(&own, USUAL_QUANTILE).max(1.0);
-        Self { band, own, scale, after, floor }
+        Self {
+            band,
+            own,
+            scale,
+            after,
+            floor,
+        }
     }
 
     /// Adds `−weight·[n₁ ln E₁ + n₂ ln E₂]` for a change before each hop of a stretch.
@@ -176,7 +223,9 @@ fn means_before(energies: &[f32], window: usize) -> Vec<f32> {
     let mut means = vec![0.0; energies.len()];
     for k in 0..energies.len() {
         means[k] = narrow((sum / real(window)).max(0.0));
-        sum += f64::from(energies[k]) - k.checked_sub(window).map_or(0.0, |old| f64::from(energies[old]));
+        sum += f64::from(energies[k])
+            - k.checked_sub(window)
+                .map_or(0.0, |old| f64::from(energies[old]));
     }
     means
 }
@@ -207,14 +256,18 @@ impl LogRatio {
     }
 }
 
-/// The value below which this share of the values lies; 0 of none.
+/// Values that a quantile is taken from at most: it is then known to a hundredth of its share.
+const QUANTILE_VALUES: usize = 8192;
+
+/// The value below which about this share of the values lies, from evenly spaced ones; 0 of none.
 fn quantile(values: &[f32], share: f64) -> f32 {
-    let mut sorted = values.to_vec();
-    if sorted.is_empty() {
+    let step = values.len().div_ceil(QUANTILE_VALUES).max(1);
+    let mut some: Vec<f32> = values.iter().copied().step_by(step).collect();
+    if some.is_empty() {
         return 0.0;
     }
-    let index = crate::units::samples_in(share, real(sorted.len() - 1));
-    *sorted.select_nth_unstable_by(index, f32::total_cmp).1
+    let index = crate::units::samples_in(share, real(some.len() - 1));
+    *some.select_nth_unstable_by(index, f32::total_cmp).1
 }
 
 #[expect(
@@ -234,15 +287,27 @@ mod tests {
         let mut rng = crate::random::SplitMix64::new(4);
         let energies: Vec<f32> = (0..200).map(|_| narrow(rng.uniform())).collect();
         for window in [2, 3, 17, 199, 300] {
-            let (falling, before) = (falling_means(&energies, window), means_before(&energies, window));
+            let (falling, before) = (
+                falling_means(&energies, window),
+                means_before(&energies, window),
+            );
             for k in 0..200 {
                 let weights: f64 = (1..=window).map(real).sum();
                 let ahead = energies[k..].iter().take(window).enumerate();
-                let slow: f64 = ahead.map(|(j, &e)| real(window - j) * f64::from(e)).sum::<f64>() / weights;
-                assert!((f64::from(falling[k]) - slow).abs() < 1e-6, "window {window}, hop {k}");
+                let slow: f64 = ahead
+                    .map(|(j, &e)| real(window - j) * f64::from(e))
+                    .sum::<f64>()
+                    / weights;
+                assert!(
+                    (f64::from(falling[k]) - slow).abs() < 1e-6,
+                    "window {window}, hop {k}"
+                );
                 let behind = &energies[k.saturating_sub(window)..k];
                 let slow = behind.iter().copied().map(f64::from).sum::<f64>() / real(window);
-                assert!((f64::from(before[k]) - slow).abs() < 1e-6, "window {window}, hop {k}");
+                assert!(
+                    (f64::from(before[k]) - slow).abs() < 1e-6,
+                    "window {window}, hop {k}"
+                );
             }
         }
     }
@@ -255,14 +320,20 @@ mod tests {
             let samples: Vec<f32> = (0..44_100)
                 .map(|i| {
                     let t = (real(i) - 22_050.0) / rate;
-                    let ring = if t > 0.0 { (-t / 5e-3).exp() * (std::f64::consts::TAU * hz * t).sin() } else { 0.0 };
+                    let ring = if t > 0.0 {
+                        (-t / 5e-3).exp() * (std::f64::consts::TAU * hz * t).sin()
+                    } else {
+                        0.0
+                    };
                     narrow(0.5 * ring + 1e-4 * rng.normal())
                 })
                 .collect();
             let bank = Filterbank::new(rate, 0.25e-3, 60.0).unwrap();
             let evidence = Evidence::of(&bank, &samples);
             let total = &evidence.total;
-            let top = (0..total.len()).max_by(|&a, &b| total[a].total_cmp(&total[b])).unwrap();
+            let top = (0..total.len())
+                .max_by(|&a, &b| total[a].total_cmp(&total[b]))
+                .unwrap();
             let off_s = evidence.begin(top) * bank.hop_s() - 0.5;
             // A quarter of a period passes before a slow tone is loud.
             assert!(off_s.abs() < 0.4e-3 + 0.25 / hz, "{hz} Hz: {off_s} s");

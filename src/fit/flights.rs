@@ -37,7 +37,10 @@ impl Flights {
     /// Length in seconds of the flight after impact `number`, counted from 0, if both its ends were heard.
     #[must_use]
     pub fn after(&self, number: usize) -> Option<f64> {
-        let place = self.lengths.binary_search_by_key(&number, |&(i, _)| i).ok()?;
+        let place = self
+            .lengths
+            .binary_search_by_key(&number, |&(i, _)| i)
+            .ok()?;
         Some(self.lengths[place].1)
     }
 
@@ -97,7 +100,11 @@ impl Flights {
         if self.lengths.is_empty() {
             return None;
         }
-        let ln = self.lengths.iter().map(|(_, t)| (0.5 * gravity_m_per_s2 * t).ln()).sum::<f64>();
+        let ln = self
+            .lengths
+            .iter()
+            .map(|(_, t)| (0.5 * gravity_m_per_s2 * t).ln())
+            .sum::<f64>();
         Some((ln / real(self.lengths.len())).exp())
     }
 }
@@ -115,7 +122,14 @@ mod tests {
             time_s += flight;
             impacts.push(time_s);
         }
-        impacts.into_iter().map(|time_s| Impact { time_s, std_s: 1e-6, heard: true }).collect()
+        impacts
+            .into_iter()
+            .map(|time_s| Impact {
+                time_s,
+                std_s: 1e-6,
+                heard: true,
+            })
+            .collect()
     }
 
     #[test]
@@ -128,7 +142,9 @@ mod tests {
     fn scatter_makes_the_error() {
         // ln ratios alternate by ±s about the mean: the standard deviation of ten of them is s·√(10/9).
         let s = 0.01_f64;
-        let ratios: Vec<f64> = (0..10).map(|i| 0.9 * if i % 2 == 0 { s.exp() } else { (-s).exp() }).collect();
+        let ratios: Vec<f64> = (0..10)
+            .map(|i| 0.9 * if i % 2 == 0 { s.exp() } else { (-s).exp() })
+            .collect();
         let estimate = Flights::between(&drop(0.5, &ratios)).ratio().unwrap();
         assert!((estimate.value - 0.9).abs() < 1e-12);
         let expected = 0.9 * s * (10.0_f64 / 9.0).sqrt() / 10.0_f64.sqrt();
@@ -143,7 +159,14 @@ mod tests {
         impacts[4].heard = false;
         impacts[4].time_s += 0.02;
         let flights = Flights::between(&impacts);
-        assert_eq!((flights.after(2).is_some(), flights.after(3), flights.after(4)), (true, None, None));
+        assert_eq!(
+            (
+                flights.after(2).is_some(),
+                flights.after(3),
+                flights.after(4)
+            ),
+            (true, None, None)
+        );
         assert!((flights.ratio().unwrap().value - 0.8).abs() < 1e-12);
     }
 

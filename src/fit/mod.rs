@@ -26,7 +26,11 @@ impl Estimate {
     /// A value without a known error.
     #[must_use]
     pub const fn bare(value: f64) -> Self {
-        Self { value, std_error: None, interval95: None }
+        Self {
+            value,
+            std_error: None,
+            interval95: None,
+        }
     }
 
     /// A restitution from its logarithm and that one's standard error, which rests on this many degrees of freedom.
@@ -62,8 +66,18 @@ mod tests {
 
     #[test]
     fn quantiles_are_those_of_the_tables() {
-        for (freedom, quantile) in [(1.0, 12.706), (2.0, 4.303), (5.0, 2.571), (30.0, 2.042), (f64::INFINITY, 1.960)] {
-            assert!((student_975(freedom) - quantile).abs() < 6e-4, "{freedom}: {}", student_975(freedom));
+        for (freedom, quantile) in [
+            (1.0, 12.706),
+            (2.0, 4.303),
+            (5.0, 2.571),
+            (30.0, 2.042),
+            (f64::INFINITY, 1.960),
+        ] {
+            assert!(
+                (student_975(freedom) - quantile).abs() < 6e-4,
+                "{freedom}: {}",
+                student_975(freedom)
+            );
         }
     }
 }

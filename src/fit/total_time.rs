@@ -21,7 +21,6 @@ pub struct Drop<'a> {
     pub height_m: f64,
     /// In m/s².
     pub gravity_m_per_s2: f64,
-    
 }
 
 /// Why there is no total time.
@@ -87,16 +86,24 @@ pub fn solve(drop: &Drop<'_>) -> Result<Result<TotalTime, Missing>, Error> {
     let mut root = None;
     // The last contact is that of (20), which depends on e: each round changes it by dΔT/de·de, far below itself.
     for _ in 0..CONTACT_ROUNDS {
-        root = series.restitution_from_total_time(bounces, total_time_s).ok();
+        root = series
+            .restitution_from_total_time(bounces, total_time_s)
+            .ok();
         let Some(found) = root else { break };
-        total_time_s = series.first_fall_s() + observed + series.rest_contact_time_s(found.restitution, bounces)?;
+        total_time_s = series.first_fall_s()
+            + observed
+            + series.rest_contact_time_s(found.restitution, bounces)?;
     }
     let std_s = error_s(drop);
     let freedom = real(drop.flights.ln_ratios().len().saturating_sub(1));
     let estimate = |e: f64, slope: f64| {
         let std = slope * std_s;
         let reach = student_975(freedom) * std;
-        Estimate { value: e, std_error: Some(std), interval95: Some([(e - reach).max(0.0), (e + reach).min(1.0)]) }
+        Estimate {
+            value: e,
+            std_error: Some(std),
+            interval95: Some([(e - reach).max(0.0), (e + reach).min(1.0)]),
+        }
     };
     let endless = series.restitution_from_total_time_approx(total_time_s).ok();
     Ok(Ok(TotalTime {
@@ -121,30 +128,51 @@ pub fn first_rebound(drop: &Drop<'_>) -> Option<Estimate> {
     let value = flight * (drop.gravity_m_per_s2 / (8.0 * drop.height_m)).sqrt();
     let std = value * drop.impacts[0].std_s.hypot(drop.impacts[1].std_s) / flight;
     let reach = student_975(f64::INFINITY) * std;
-    Some(Estimate { value, std_error: Some(std), interval95: Some([value - reach, value + reach]) })
+    Some(Estimate {
+        value,
+        std_error: Some(std),
+        interval95: Some([value - reach, value + reach]),
+    })
 }
 
 fn missing(drop: &Drop<'_>, series: &BounceSeries) -> Option<Missing> {
     if let Some(first_flight_s) = drop.flights.after(0) {
         let longest_s = 2.0 * series.first_fall_s();
         if first_flight_s > longest_s {
-            return Some(Missing::Height { first_flight_s, longest_s });
+            return Some(Missing::Height {
+                first_flight_s,
+                longest_s,
+            });
         }
-        let early: Vec<f64> = drop.flights.ln_ratios().iter().take(2).map(|(_, r)| *r).collect();
+        let early: Vec<f64> = drop
+            .flights
+            .ln_ratios()
+            .iter()
+            .take(2)
+            .map(|(_, r)| *r)
+            .collect();
         let ln_ratio = early.iter().sum::<f64>() / real(early.len().max(1));
         if (first_flight_s / longest_s).ln() < HALF_A_BOUNCE * ln_ratio {
-            return Some(Missing::FirstImpact { first_flight_s, expected_s: longest_s * ln_ratio.exp() });
+            return Some(Missing::FirstImpact {
+                first_flight_s,
+                expected_s: longest_s * ln_ratio.exp(),
+            });
         }
     }
     let left_s = left_s(drop);
-    let whole = series.first_fall_s() + drop.impacts.last()?.time_s - drop.impacts.first()?.time_s + left_s;
+    let whole =
+        series.first_fall_s() + drop.impacts.last()?.time_s - drop.impacts.first()?.time_s + left_s;
     (left_s > LARGEST_REST * whole).then_some(Missing::End { left_s })
 }
 
 /// How long the ball goes on after the last impact, at the same ratio for ever: `T·e/(1 − e)`.
 #[must_use]
 pub fn left_s(drop: &Drop<'_>) -> f64 {
-    let last = drop.impacts.len().checked_sub(2).and_then(|i| drop.flights.after(i));
+    let last = drop
+        .impacts
+        .len()
+        .checked_sub(2)
+        .and_then(|i| drop.flights.after(i));
     last.unwrap_or(0.0) * drop.restitution / (1.0 - drop.restitution).max(f64::EPSILON)
 }
 
@@ -169,7 +197,11 @@ mod tests {
         let mut time_s = 1.0;
         (0..count)
             .map(|_| {
-                let impact = Impact { time_s, std_s: 1e-5, heard: true };
+                let impact = Impact {
+                    time_s,
+                    std_s: 1e-5,
+                    heard: true,
+                };
                 time_s += flight;
                 flight *= e;
                 impact
@@ -180,8 +212,14 @@ mod tests {
     fn solved(impacts: &[Impact], height_m: f64) -> Result<TotalTime, Missing> {
         let flights = Flights::between(impacts);
         let restitution = flights.ratio().unwrap().value;
-        solve(&Drop { impacts, flights: &flights, restitution, height_m, gravity_m_per_s2: G })
-            .unwrap()
+        solve(&Drop {
+            impacts,
+            flights: &flights,
+            restitution,
+            height_m,
+            gravity_m_per_s2: G,
+        })
+        .unwrap()
     }
 
     #[test]
@@ -189,7 +227,10 @@ mod tests {
         // 70 bounces at the e that (25) gives for 7.5 s: the flights alone last 7.5 s less 70 contacts.
         let found = solved(&impacts(0.305, 0.9335, 70), 0.305).unwrap();
         let eq25 = found.eq25.unwrap();
-        assert!((eq25.value - 0.9335).abs() < 0.003 && eq25.std_error.unwrap() > 0.0, "{found:?}");
+        assert!(
+            (eq25.value - 0.9335).abs() < 0.003 && eq25.std_error.unwrap() > 0.0,
+            "{found:?}"
+        );
         assert!(found.eq30.unwrap().value > 0.93);
     }
 
@@ -197,13 +238,19 @@ mod tests {
     fn a_lost_first_impact_is_noticed() {
         let whole = impacts(0.5, 0.8, 20);
         assert!(solved(&whole, 0.5).is_ok());
-        assert!(matches!(solved(&whole[1..], 0.5), Err(Missing::FirstImpact { .. })));
+        assert!(matches!(
+            solved(&whole[1..], 0.5),
+            Err(Missing::FirstImpact { .. })
+        ));
         assert!(matches!(solved(&whole, 0.2), Err(Missing::Height { .. })));
     }
 
     #[test]
     fn an_early_end_is_noticed() {
-        assert!(matches!(solved(&impacts(0.5, 0.9, 8), 0.5), Err(Missing::End { .. })));
+        assert!(matches!(
+            solved(&impacts(0.5, 0.9, 8), 0.5),
+            Err(Missing::End { .. })
+        ));
     }
 
     #[test]
@@ -216,7 +263,6 @@ mod tests {
             restitution: 0.8,
             height_m: 0.5,
             gravity_m_per_s2: G,
-            
         };
         assert!((first_rebound(&drop).unwrap().value - 0.8).abs() < 1e-12);
     }

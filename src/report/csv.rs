@@ -5,7 +5,8 @@ use std::fmt::Write;
 use super::Report;
 
 /// The columns, in order.
-pub const HEADER: &str = "file,drop,impact,time_s,time_std_s,level_db,interval_s,ratio,rebound_height_m,status";
+pub const HEADER: &str =
+    "file,drop,impact,time_s,time_std_s,level_db,interval_s,ratio,rebound_height_m,status";
 
 /// One row per impact with its drop's number, under [`HEADER`]; values that do not exist are empty.
 #[must_use]
@@ -15,8 +16,13 @@ pub fn to_csv(report: &Report) -> String {
     for (d, drop) in report.analysis.drops.iter().enumerate() {
         for (i, impact) in drop.impacts.iter().enumerate() {
             let mut row = format!("{file},{},{},{}", d + 1, i + 1, impact.time_s);
-            let numbers =
-                [impact.time_std_s, impact.level_db, impact.interval_s, impact.ratio, impact.rebound_height_m];
+            let numbers = [
+                impact.time_std_s,
+                impact.level_db,
+                impact.interval_s,
+                impact.ratio,
+                impact.rebound_height_m,
+            ];
             for number in numbers {
                 row.push(',');
                 if let Some(number) = number {

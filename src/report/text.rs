@@ -11,11 +11,14 @@ pub fn to_text(report: &Report) -> String {
     let mut out = String::new();
     let drops = &report.analysis.drops;
     let count = drops.len();
-    line(&mut out, &match count {
-        0 => format!("{}: no drop found", report.file),
-        1 => format!("{}: one drop", report.file),
-        _ => format!("{}: {count} drops", report.file),
-    });
+    line(
+        &mut out,
+        &match count {
+            0 => format!("{}: no drop found", report.file),
+            1 => format!("{}: one drop", report.file),
+            _ => format!("{}: {count} drops", report.file),
+        },
+    );
     for (i, drop) in drops.iter().enumerate() {
         if count > 1 {
             line(&mut out, &format!("\nDrop {}", i + 1));
@@ -44,9 +47,15 @@ fn answer(out: &mut String, drop: &Drop) {
         None => line(out, "  e        not determined"),
     }
     line(out, &format!("  bounces  {}", drop.bounces));
-    let observed = format!("{:.4} s from the first impact to the last", drop.observed_time_s);
+    let observed = format!(
+        "{:.4} s from the first impact to the last",
+        drop.observed_time_s
+    );
     match drop.total_time_s {
-        Some(total) => line(out, &format!("  T_total  {total:.4} s from release to rest ({observed})")),
+        Some(total) => line(
+            out,
+            &format!("  T_total  {total:.4} s from release to rest ({observed})"),
+        ),
         None => line(out, &format!("  time     {observed}")),
     }
     let estimates = &drop.estimates;
@@ -69,19 +78,30 @@ fn with_error(estimate: &Estimate) -> String {
         return format!("{:.3} (no error: a single ratio)", estimate.value);
     };
     let digits = digits_for(std);
-    format!("{:.digits$} ± {std:.digits$} (95 %: {low:.digits$} to {high:.digits$})", estimate.value)
+    format!(
+        "{:.digits$} ± {std:.digits$} (95 %: {low:.digits$} to {high:.digits$})",
+        estimate.value
+    )
 }
 
 /// Decimals that show an error with two digits, at most eight.
 fn digits_for(std: f64) -> usize {
-    (1..8).find(|&d| std * 10_f64.powi(d) >= 9.5).map_or(8, |d| usize::try_from(d).unwrap_or(8))
+    (1..8)
+        .find(|&d| std * 10_f64.powi(d) >= 9.5)
+        .map_or(8, |d| usize::try_from(d).unwrap_or(8))
 }
 
 fn table(out: &mut String, impacts: &[Impact]) {
-    line(out, "\n     #    time [s]  ± [ms]   level [dB]  flight [ms]   ratio  rebound [mm]");
+    line(
+        out,
+        "\n     #    time [s]  ± [ms]   level [dB]  flight [ms]   ratio  rebound [mm]",
+    );
     for (i, impact) in impacts.iter().enumerate() {
         let cell = |value: Option<f64>, width: usize, decimals: usize| {
-            value.map_or_else(|| format!("{:>width$}", "-"), |v| format!("{v:width$.decimals$}"))
+            value.map_or_else(
+                || format!("{:>width$}", "-"),
+                |v| format!("{v:width$.decimals$}"),
+            )
         };
         let row = format!(
             "  {:4}  {:10.6}  {}  {}  {}  {}  {}  {}",
@@ -92,7 +112,11 @@ fn table(out: &mut String, impacts: &[Impact]) {
             cell(impact.interval_s.map(|t| 1e3 * t), 11, 3),
             cell(impact.ratio, 6, 4),
             cell(impact.rebound_height_m.map(|h| 1e3 * h), 12, 2),
-            if impact.status == super::Status::Heard { "" } else { impact.status.word() },
+            if impact.status == super::Status::Heard {
+                ""
+            } else {
+                impact.status.word()
+            },
         );
         line(out, row.trim_end());
     }
@@ -118,7 +142,11 @@ fn rejects(out: &mut String, rejected: &[Rejected], place: &str) {
         // Writing to a string cannot fail.
         let _: std::fmt::Result = match count {
             1 => writeln!(out, "  {:.4} s: {detail}", first.time_s),
-            _ => writeln!(out, "  {count} times, first at {:.4} s: {detail}", first.time_s),
+            _ => writeln!(
+                out,
+                "  {count} times, first at {:.4} s: {detail}",
+                first.time_s
+            ),
         };
     }
 }
@@ -138,8 +166,15 @@ mod tests {
 
     #[test]
     fn values_are_written_to_the_digits_that_their_error_leaves() {
-        let estimate = Estimate { value: 0.945_231, std_error: Some(0.000_61), interval95: Some([0.944, 0.9465]) };
-        assert_eq!(with_error(&estimate), "0.94523 ± 0.00061 (95 %: 0.94400 to 0.94650)");
+        let estimate = Estimate {
+            value: 0.945_231,
+            std_error: Some(0.000_61),
+            interval95: Some([0.944, 0.9465]),
+        };
+        assert_eq!(
+            with_error(&estimate),
+            "0.94523 ± 0.00061 (95 %: 0.94400 to 0.94650)"
+        );
         assert!(with_error(&Estimate::bare(0.8)).starts_with("0.800 (no error"));
     }
 }

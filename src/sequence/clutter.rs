@@ -7,36 +7,66 @@ use crate::units::real;
 const BIN_S: f64 = 0.25;
 /// Bins looked at on each side: surroundings of a second or two, in which a scene changes little.
 const REACH: usize = 3;
-/// Events that may have been missed by looking at so short a time.
+/// What the whole recording says of its events counts as much as this many seconds of surroundings.
+const WHOLE_S: f64 = 2.0;
+/// Events that noise may have offered had the recording been longer.
 const UNSEEN: f64 = 0.5;
+/// Knocks per second that happen where balls are dropped, whatever the noise: two a minute.
+const KNOCKS_PER_S: f64 = 0.03;
 
 /// The rate of events by strength, near each moment of a recording.
 #[derive(Debug)]
 pub struct Clutter {
     /// Strengths in each bin, ascending.
     bins: Vec<Vec<f64>>,
+    /// All strengths, ascending.
+    all: Vec<f64>,
     start_s: f64,
     duration_s: f64,
 }
 
-impl Clutter {
-        /// Learns the rates from the events, which are in order of time, that are not explained already.
+/// Events that are no clutter, because a chain explains them.
+#[derive(Debug, Clone, Default)]
+pub struct Explained {
+    /// In order of time.
+    events: Vec<Event>,
+    /// Their strengths, ascending.
+    strengths: Vec<f64>,
+}
+
+impl Explained {
+    /// These events, in order of time.
     #[must_use]
-    pub fn new(events: &[Event], explained: &[bool]) -> Self {
+    pub fn new(events: Vec<Event>) -> Self {
+        let mut strengths: Vec<f64> = events.iter().map(|e| e.strength).collect();
+        strengths.sort_by(f64::total_cmp);
+        Self { events, strengths }
+    }
+
+    /// How many at least as strong as this lie in a range of bins.
+    fn near(&self, strength: f64, bins: std::ops::RangeInclusive<usize>, start_s: f64) -> usize {
+        let bin = |e: &Event| bin_of(e.time_s - start_s);
+        let first = self.events.partition_point(|e| bin(e) < *bins.start());
+        let near = self.events[first..].iter().take_while(|e| bin(e) <= *bins.end());
+        near.filter(|e| e.strength >= strength).count()
+    }
+}
+
+impl Clutter {
+    /// Learns the rates from all events, which are in order of time.
+    #[must_use]
+    pub fn new(events: &[Event]) -> Self {
         let start_s = events.first().map_or(0.0, |e| e.time_s);
         let duration_s = events.last().map_or(0.0, |e| e.time_s) - start_s;
         let mut bins = vec![Vec::new(); bin_of(duration_s) + 1];
-                for (event, _) in events.iter().zip(explained).filter(|(_, explained)| !**explained) {
+        for event in events {
             bins[bin_of(event.time_s - start_s)].push(event.strength);
         }
-        for bin in &mut bins {
-            bin.sort_by(f64::total_cmp);
+        let mut all: Vec<f64> = events.iter().map(|e| e.strength).collect();
+        for strengths in bins.iter_mut().chain([&mut all]) {
+            strengths.sort_by(f64::total_cmp);
         }
-        Self {
-            bins,
-            start_s,
-            duration_s,
-        }
+        Self { bins, all, start_s, duration_s }
     }
 
     /// Seconds from the first event to the last, at least one.
@@ -45,21 +75,55 @@ impl Clutter {
         self.duration_s.max(1.0)
     }
 
-    /// Events per second at least as strong as this one of them, near its time; it does not count itself.
+    /// Clutter per second at least as strong as this event, near its time; it does not count itself.
+    ///
+    /// # Formula
+    /// ```text
+    /// rate = (n + λ·W) / (t + W),   λ = (N + ½·min(1, exp(−(s − s_max)/θ))) / D + κ
+    /// ```
+    /// n in the t seconds around it, N in all D seconds of the recording, W = [`WHOLE_S`]: the mean of a Poisson rate
+    /// whose prior is what the whole recording says. What is stronger than all clutter (by s − s_max) noise offers
+    /// the less often, as its tail falls with θ nats; what is left is κ, the rate of knocks.
     #[must_use]
-    pub fn rate_per_s(&self, event: &Event) -> f64 {
+    pub fn rate_per_s(&self, event: &Event, explained: &Explained) -> f64 {
+        let strength = event.strength;
         let centre = bin_of(event.time_s - self.start_s);
-        let (first, last) = (
-            centre.saturating_sub(REACH),
-            (centre + REACH).min(self.bins.len() - 1),
-        );
-        let count: usize = self.bins[first..=last]
-            .iter()
-            .map(|bin| bin.len() - bin.partition_point(|&s| s < event.strength))
-            .sum();
-        let span_s = (real(last + 1) * BIN_S).min(self.duration_s) - real(first) * BIN_S;
-                (real(count.saturating_sub(1)) + UNSEEN) / span_s.max(BIN_S)
+        let (first, last) = (centre.saturating_sub(REACH), (centre + REACH).min(self.bins.len() - 1));
+        // An event that is explained does not count anyhow; any other is not its own clutter.
+        let itself = usize::from(!explained.events.contains(event));
+        let known_near = itself + explained.near(strength, first..=last, self.start_s);
+        let known = itself + at_least(&explained.strengths, strength);
+        let all_near: usize = self.bins[first..=last].iter().map(|bin| at_least(bin, strength)).sum();
+        let near = real(all_near.saturating_sub(known_near));
+        let unseen = UNSEEN * (-(strength - self.strongest(explained)).max(0.0) / self.tail(explained)).exp();
+        let others = real(at_least(&self.all, strength).saturating_sub(known));
+        let whole = (others + unseen) / self.duration_s() + KNOCKS_PER_S;
+        let span_s = ((real(last + 1) * BIN_S).min(self.duration_s) - real(first) * BIN_S).max(BIN_S);
+        (near + whole * WHOLE_S) / (span_s + WHOLE_S)
     }
+
+    /// Strength of the strongest clutter.
+    fn strongest(&self, explained: &Explained) -> f64 {
+        let pairs = self.all.iter().rev().zip(explained.strengths.iter().rev());
+        let known = pairs.take_while(|(a, e)| a <= e).count();
+        self.all.len().checked_sub(known + 1).map_or(0.0, |i| self.all[i])
+    }
+
+    /// θ of an exponential tail: between the 0.9 and the 0.99 quantile of the clutter it falls tenfold. What is
+    /// explained is taken to be stronger than that.
+    fn tail(&self, explained: &Explained) -> f64 {
+        let last = self.all.len().saturating_sub(explained.strengths.len() + 1);
+        let at = |share: f64| self.all.get(crate::units::samples_in(share, real(last))).copied().unwrap_or(0.0);
+        ((at(0.99) - at(0.9)) / std::f64::consts::LN_10).max(LEAST_TAIL)
+    }
+}
+
+/// θ is not taken below this, in nats: where all clutter is alike, the next may still be stronger.
+const LEAST_TAIL: f64 = 0.1;
+
+/// How many of the ascending strengths are at least this.
+fn at_least(strengths: &[f64], strength: f64) -> usize {
+    strengths.len() - strengths.partition_point(|&s| s < strength)
 }
 
 fn bin_of(after_start_s: f64) -> usize {
@@ -75,16 +139,18 @@ mod tests {
         let events: Vec<Event> = (0..1_000)
             .map(|i| Event {
                 time_s: 0.02 * real(i),
+                jitter_s: 1e-4,
                 strength: if i % 100 == 0 { 50.0 } else { real(i % 10) },
             })
             .collect();
-        let clutter = Clutter::new(&events, &vec![false; events.len()]);
-        let strong = clutter.rate_per_s(&events[500]);
-        let weak = clutter.rate_per_s(&Event {
-            time_s: 10.0,
-            strength: 0.0,
-        });
-                assert!((0.2..0.6).contains(&strong), "{strong}");
+        let clutter = Clutter::new(&events);
+        let strong = clutter.rate_per_s(&events[500], &Explained::default());
+        let faint = Event { time_s: 10.0, jitter_s: 1e-4, strength: 0.0 };
+        let weak = clutter.rate_per_s(&faint, &Explained::default());
+        assert!((0.1..0.6).contains(&strong), "{strong}");
         assert!((weak - 50.0).abs() < 2.0, "{weak}");
+        let own: Vec<Event> = events.iter().copied().filter(|e| e.strength > 40.0).collect();
+        let alone = clutter.rate_per_s(&events[500], &Explained::new(own));
+        assert!(alone < 0.25 * strong, "{alone} {strong}");
     }
 }

@@ -1,5 +1,6 @@
 //! The drops of a recording: the best chains that share no event.
 
+use super::clutter::Clutter;
 use super::reasons::{self, Reason, Rejected};
 use super::seeds::seeds;
 use super::track::{Scene, Step, follow};
@@ -14,7 +15,7 @@ pub struct Link {
     pub event: Option<usize>,
     /// Seconds from the first sample.
     pub time_s: f64,
-        /// What the event earned in nats.
+    /// What the event earned in nats.
     pub gain: f64,
     /// Whether chance offers events as strong so often here that this one may be none of the ball's.
     pub doubtful: bool,
@@ -35,6 +36,10 @@ pub struct Chain {
 }
 
 impl Chain {
+    fn new((steps, evidence): (Vec<Step>, f64)) -> Self {
+        Self { links: links(&steps), evidence, rejected: Vec::new() }
+    }
+
     /// Indices of the events that are its impacts.
     pub(super) fn events(&self) -> impl Iterator<Item = usize> + '_ {
         self.links.iter().filter_map(|l| l.event)
@@ -65,9 +70,6 @@ pub struct Found {
     pub weak: usize,
 }
 
-/// Chains sharpened at most, in a short recording and for each second of a long one.
-const MOST_CHAINS: usize = 20;
-const CHAINS_PER_S: f64 = 1.0;
 /// Fewest impacts heard that make a drop: three flights, whose two ratios agree.
 const FEWEST: usize = 4;
 /// Over a whole drop the flights shrink at least to this share: ticking clocks and voices do not.
@@ -86,17 +88,16 @@ pub fn find(events: &[Event], settings: &Settings) -> Result<Found, Error> {
     if events.is_empty() {
         return Ok(Found::default());
     }
-    let scene = Scene::new(events, settings);
-    let mut chains: Vec<Chain> = first_chains(&scene)
-        .iter()
-        .map(|chain| sharpen(&scene, chain))
-        .filter(|chain| is_drop(chain, settings))
-        .collect();
+    let clutter = Clutter::new(events);
+    let scene = Scene::new(events, &clutter, settings);
+    let mut chains = chains(&scene);
+    chains.retain(|chain| is_drop(chain, settings));
     chains.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     let mut taken = vec![false; events.len()];
     let mut drops: Vec<Chain> = Vec::new();
     for chain in chains {
-        if chain.events().any(|i| taken[i]) || drops.iter().any(|d| reasons::is_echo_of(&chain, d)) {
+        if chain.events().any(|i| taken[i]) || drops.iter().any(|d| reasons::is_echo_of(&chain, d))
+        {
             continue;
         }
         chain.events().for_each(|i| taken[i] = true);
@@ -109,17 +110,14 @@ pub fn find(events: &[Event], settings: &Settings) -> Result<Found, Error> {
 /// How often a chain is followed anew with what it taught.
 const SHARPENINGS: usize = 8;
 /// Follows a chain anew, with its own impacts and their echoes no longer counted as clutter.
-fn sharpen(scene: &Scene<'_>, chain: &Chain) -> Chain {
-    let mut chain = chain.clone();
+fn sharpen(scene: &Scene<'_>, mut chain: Chain) -> Chain {
     for _ in 0..SHARPENINGS {
         let Some(seed) = best_seed(&chain) else {
             return chain;
         };
         let explained = reasons::explained(scene, &chain);
-        let clearer = Scene::without(scene.events, scene.settings, &explained);
-        let (steps, evidence) = follow(&clearer, seed);
-        let next = Chain { links: links(&steps), evidence, rejected: Vec::new() };
-        let settled = next.links == chain.links;
+        let next = Chain::new(follow(&scene.without(&explained), seed));
+        let settled = next.events().eq(chain.events());
         chain = next;
         if settled {
             break;
@@ -141,48 +139,30 @@ fn best_seed(chain: &Chain) -> Option<[usize; 3]> {
         .map(|(events, _)| events)
 }
 
-/// Chains that may be drops, each from the most promising of its seeds, the most evident of those that share events.
-fn first_chains(scene: &Scene<'_>) -> Vec<Chain> {
+/// The chains that the seeds lead to, the most promising seed first.
+fn chains(scene: &Scene<'_>) -> Vec<Chain> {
     let mut chains: Vec<Chain> = Vec::new();
-    // Where in the chains found so far an event stands: a seed that is part of a chain would only find it again.
-    let mut places: Vec<Vec<(usize, usize)>> = vec![Vec::new(); scene.events.len()];
+    // The chains that each event stands in. A seed whose events all stand in one would only find it again.
+    let mut known: Vec<Vec<usize>> = vec![Vec::new(); scene.events.len()];
     for seed in seeds(scene) {
-        let known = places[seed[0]]
-            .iter()
-            .any(|&(chain, place)| (1..3).all(|k| places[seed[k]].contains(&(chain, place + k))));
-        if known {
+        let [first, second, third] = seed.map(|i| &known[i]);
+        if first.iter().any(|chain| second.contains(chain) && third.contains(chain)) {
             continue;
         }
-        let (steps, evidence) = follow(scene, seed);
-        for (place, step) in steps.iter().enumerate() {
-            if let Some(event) = step.event {
-                places[event].push((chains.len(), place));
-            }
+        let chain = Chain::new(follow(scene, seed));
+        if chain.heard() < FEWEST {
+            continue;
         }
-        chains.push(Chain {
-            links: links(&steps),
-            evidence,
-            rejected: Vec::new(),
-        });
+        let chain = sharpen(scene, chain);
+        for event in chain.events() {
+            known[event].push(chains.len());
+        }
+        chains.push(chain);
     }
-        chains.retain(|c| c.heard() >= FEWEST);
-    chains.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    // A chain that shares most of its events with a better one would be sharpened into the same drop.
-    let mut known = vec![false; scene.events.len()];
-    chains.retain(|c| {
-        let shared = c.events().filter(|&i| known[i]).count();
-        let new = 2 * shared < c.heard();
-        if new {
-            c.events().for_each(|i| known[i] = true);
-        }
-        new
-    });
-    chains.truncate(MOST_CHAINS.max(crate::units::samples_in(scene.ln_duration.exp(), CHAINS_PER_S)));
     chains
 }
 
 fn is_drop(chain: &Chain, settings: &Settings) -> bool {
-    
     let flights: Vec<f64> = chain
         .links
         .windows(2)
@@ -192,7 +172,8 @@ fn is_drop(chain: &Chain, settings: &Settings) -> bool {
         return false;
     };
     let ratio = (last / first).powf(1.0 / real((flights.len() - 1).max(1)));
-    chain.heard() >= FEWEST && chain.evidence >= settings.least_evidence
+    chain.heard() >= FEWEST
+        && chain.evidence >= settings.least_evidence
         && last <= LEAST_SHRINKAGE * first
         && first >= LEAST_FLIGHT_S
         && ratio <= GREATEST_RATIO
@@ -202,7 +183,12 @@ fn is_drop(chain: &Chain, settings: &Settings) -> bool {
 fn links(steps: &[Step]) -> Vec<Link> {
     let mut links: Vec<Link> = steps
         .iter()
-        .map(|s| Link { event: s.event, time_s: s.time_s, gain: s.gain, doubtful: s.chance > DOUBTFUL_CHANCE })
+        .map(|s| Link {
+            event: s.event,
+            time_s: s.time_s,
+            gain: s.gain,
+            doubtful: s.chance > DOUBTFUL_CHANCE,
+        })
         .collect();
     let heard: Vec<usize> = (0..links.len())
         .filter(|&i| links[i].event.is_some())

@@ -24,6 +24,15 @@ pub struct FlightLaw {
 }
 
 const STATES: usize = 3;
+
+/// What is doubtful about two flights besides the bounce between them.
+#[derive(Debug, Clone, Copy)]
+pub struct Doubt {
+    /// How many of the last impacts are only inferred.
+    pub unheard: usize,
+    /// How far off the times may be, in seconds.
+    pub jitter_s: f64,
+}
 /// ρ before any flight is known: e about 0.82, and with a spread that covers 0.35 to 0.99.
 const RHO: (f64, f64) = (-0.2, 0.35);
 /// κ before any flight is known, s⁻²: from none to twice that of a ping-pong ball.
@@ -64,7 +73,8 @@ impl Expected {
     #[must_use]
     pub fn ln_density(&self, deviation: f64) -> f64 {
         let variance = self.variance();
-        -2.5 * (0.25 * deviation * deviation / variance).ln_1p() + 0.375_f64.ln() - 0.5 * variance.ln()
+        -2.5 * (0.25 * deviation * deviation / variance).ln_1p() + 0.375_f64.ln()
+            - 0.5 * variance.ln()
     }
 }
 
@@ -76,7 +86,11 @@ impl FlightLaw {
         for (i, (_, sd)) in [RHO, KAPPA, CONTACT_S].into_iter().enumerate() {
             covariance[i][i] = sd * sd;
         }
-        Self { state: [RHO.0, KAPPA.0, CONTACT_S.0], covariance, scatter: settings.bounce_scatter }
+        Self {
+            state: [RHO.0, KAPPA.0, CONTACT_S.0],
+            covariance,
+            scatter: settings.bounce_scatter,
+        }
     }
 
     /// ln e at low speed, as far as it is known.
@@ -92,19 +106,22 @@ impl FlightLaw {
         self
     }
 
-    /// What to expect of `ln(later/earlier)` where the last `unheard` impacts between them are only inferred.
+    /// What to expect of `ln(later/earlier)`.
     #[must_use]
-    pub fn expect(&self, earlier_s: f64, later_s: f64, unheard: usize, settings: &Settings) -> Expected {
+    pub fn expect(&self, earlier_s: f64, later_s: f64, doubt: Doubt) -> Expected {
         let slopes = self.slopes(earlier_s);
-        let jitter = settings.timing_jitter_s * settings.timing_jitter_s;
+        let jitter = doubt.jitter_s * doubt.jitter_s;
         Expected {
             mean: dot(&slopes, &self.state),
             law: dot(&slopes, &self.gains(&slopes)),
             // An impact that is only inferred may be off by the scatter of its flight, in both flights that it ends.
-            scatter: self.scatter * self.scatter * (1.0 + 4.0 * real(unheard)),
+            scatter: self.scatter * self.scatter * (1.0 + 4.0 * real(doubt.unheard)),
             // The flights share the impact between them, so its jitter counts in both:
             // ln T' − ln T moves by ε₂/T' − ε₁(1/T' + 1/T) + ε₀/T.
-            jitter: jitter * (earlier_s.powi(-2) + later_s.powi(-2) + (1.0 / earlier_s + 1.0 / later_s).powi(2)),
+            jitter: jitter
+                * (earlier_s.powi(-2)
+                    + later_s.powi(-2)
+                    + (1.0 / earlier_s + 1.0 / later_s).powi(2)),
         }
     }
 
@@ -121,14 +138,17 @@ impl FlightLaw {
         for _ in 0..3 {
             let ln_ratio = dot(&self.slopes(earlier), &self.state);
             // Drag lengthens the flight before by at most a factor of two here, or the step would run away.
-            earlier = later_s * (-ln_ratio).min(std::f64::consts::LN_2 - self.state[0]).exp();
+            earlier = later_s
+                * (-ln_ratio)
+                    .min(std::f64::consts::LN_2 - self.state[0])
+                    .exp();
         }
         earlier
     }
 
     /// Learns from one ratio; from a stray one less, as Student's distribution weighs it.
-    pub fn learn(&mut self, earlier_s: f64, later_s: f64, unheard: usize, settings: &Settings) {
-        let expected = self.expect(earlier_s, later_s, unheard, settings);
+    pub fn learn(&mut self, earlier_s: f64, later_s: f64, doubt: Doubt) {
+        let expected = self.expect(earlier_s, later_s, doubt);
         let deviation = (later_s / earlier_s).ln() - expected.mean;
         let squared = deviation * deviation;
         let weight = 5.0 / (4.0 + squared / expected.variance());
@@ -168,6 +188,11 @@ fn dot(a: &[f64; STATES], b: &[f64; STATES]) -> f64 {
 mod tests {
     use super::*;
 
+    const SHARP: Doubt = Doubt {
+        unheard: 0,
+        jitter_s: 1e-4,
+    };
+
     #[test]
     fn a_law_taught_by_a_ball_with_drag_knows_its_next_and_previous_flight() {
         let settings = Settings::default();
@@ -179,7 +204,7 @@ mod tests {
         }
         let mut law = FlightLaw::prior(&settings);
         for pair in flights.windows(2) {
-            law.learn(pair[0], pair[1], 0, &settings);
+            law.learn(pair[0], pair[1], SHARP);
         }
         assert!((law.ln_restitution() - e.ln()).abs() < 0.005, "{law:?}");
         for pair in flights.windows(2).rev().take(10) {
@@ -193,10 +218,10 @@ mod tests {
         let settings = Settings::default();
         let mut law = FlightLaw::prior(&settings);
         for _ in 0..10 {
-            law.learn(0.3, 0.27, 0, &settings);
+            law.learn(0.3, 0.27, SHARP);
         }
         let before = law.ln_restitution();
-        law.learn(0.3, 0.27 * 1.2, 0, &settings);
+        law.learn(0.3, 0.27 * 1.2, SHARP);
         assert!((law.ln_restitution() - before).abs() < 0.02);
     }
 }

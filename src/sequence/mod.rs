@@ -26,8 +26,7 @@ pub struct Settings {
     /// Relative scatter of one flight about the trend, before the drop's own is learnt. Default 0.01: twice that of a
     /// ping-pong ball.
     pub bounce_scatter: f64,
-    /// Jitter of a candidate's time, in seconds. Default 0.15 ms: half a hop of the detector.
-    pub timing_jitter_s: f64,
+
     /// Evidence a chain needs to be a drop, in nats. Default 12: chance makes one in e¹² recordings.
     pub least_evidence: f64,
 }
@@ -38,7 +37,7 @@ impl Default for Settings {
             longest_flight_s: 2.0,
             shortest_flight_s: 4e-3,
             bounce_scatter: 0.01,
-            timing_jitter_s: 0.15e-3,
+
             least_evidence: 12.0,
         }
     }
@@ -50,7 +49,6 @@ impl Settings {
             ("longest_flight_s", self.longest_flight_s),
             ("shortest_flight_s", self.shortest_flight_s),
             ("bounce_scatter", self.bounce_scatter),
-            ("timing_jitter_s", self.timing_jitter_s),
             ("least_evidence", self.least_evidence),
         ] {
             if !(value.is_finite() && value > 0.0) {
@@ -66,6 +64,8 @@ impl Settings {
 pub struct Event {
     /// Seconds from the first sample.
     pub time_s: f64,
+    /// How far off the time may be, in seconds (one standard deviation).
+    pub jitter_s: f64,
     /// Evidence for it, in nats; only its rank among its neighbours matters here.
     pub strength: f64,
 }

@@ -72,18 +72,20 @@ pub fn is_echo_of(chain: &Chain, direct: &Chain) -> bool {
     median < LONGEST_DELAY_S && 2 * same > chain.links.len()
 }
 
-/// Which events a chain explains: its impacts and their echoes.
+/// Which events a chain explains, in order: its impacts and their echoes.
 #[must_use]
-pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<bool> {
-    let mut explained = vec![false; scene.events.len()];
-    chain.events().for_each(|i| explained[i] = true);
-    let echoes = echo_delays(scene, chain, &explained);
+pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
+    let own: Vec<usize> = chain.events().collect();
+    let echoes = echo_delays(scene, chain, |i| own.binary_search(&i).is_ok());
+    let mut explained = own;
     for link in &chain.links {
-        for i in scene.between(link.time_s, link.time_s + LONGEST_DELAY_S) {
+        explained.extend(scene.between(link.time_s, link.time_s + LONGEST_DELAY_S).filter(|&i| {
             let delay = scene.events[i].time_s - link.time_s;
-            explained[i] |= echoes.iter().any(|d| (delay - d).abs() < DELAY_TOLERANCE_S);
-        }
+            echoes.iter().any(|d| (delay - d).abs() < DELAY_TOLERANCE_S)
+        }));
     }
+    explained.sort_unstable();
+    explained.dedup();
     explained
 }
 
@@ -92,7 +94,7 @@ pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<bool> {
 pub fn explain(scene: &Scene<'_>, mut drops: Vec<Chain>, taken: &[bool]) -> Found {
     let mut named = vec![false; taken.len()];
     for drop in &mut drops {
-        let echoes = echo_delays(scene, drop, taken);
+        let echoes = echo_delays(scene, drop, |i| taken[i]);
         let least = NOTABLE_SHARE * median_strength(scene, drop);
         let (start_s, end_s) = drop.span_s();
         for i in scene.between(start_s - NEAR_S, end_s + LONGEST_DELAY_S) {
@@ -150,7 +152,7 @@ fn reason_within(drop: &Chain, time_s: f64, echoes: &[f64]) -> Option<Reason> {
 }
 
 /// Delays at which something follows many of the impacts.
-fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: &[bool]) -> Vec<f64> {
+fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: impl Fn(usize) -> bool) -> Vec<f64> {
     let mut delays: Vec<f64> = Vec::new();
     for link in &drop.links {
         let window = scene.between(
@@ -159,7 +161,7 @@ fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: &[bool]) -> Vec<f64> {
         );
         delays.extend(
             window
-                .filter(|&i| !taken[i])
+                .filter(|&i| !taken(i))
                 .map(|i| scene.events[i].time_s - link.time_s),
         );
     }

@@ -1,45 +1,61 @@
 //! Three candidates from which a drop may be followed.
 
 use super::Event;
-use super::flight::FlightLaw;
+use super::flight::{Doubt, FlightLaw};
 use super::track::Scene;
 
 /// The strongest events within this many seconds …
 const NEIGHBOURHOOD_S: f64 = 0.6;
 /// … and this many of them may start a chain: a drop stands out somewhere along its way.
 const LEADERS: usize = 10;
+/// A chain starts with events of at least this strength, in nats: white noise offers two a second.
+const LEAST_STRENGTH: f64 = 9.0;
 /// Seeds kept for each second of the recording.
 const SEEDS_PER_S: usize = 12;
 /// Ratios of neighbouring flights that may start a chain.
 const RATIOS: (f64, f64) = (0.25, 1.0);
 
+/// A seed with what it promises, in nats.
+type Promise = (f64, [usize; 3]);
+
 /// Triples of events that look like neighbouring impacts, most promising first: strong ones whose next or previous
 /// impact seems to be there.
 #[must_use]
 pub fn seeds(scene: &Scene<'_>) -> Vec<[usize; 3]> {
-    let leaders = leaders(scene.events);
-    let mut found: Vec<(f64, [usize; 3])> = Vec::new();
-    let mut bin: Vec<(f64, [usize; 3])> = Vec::new();
-    let mut bin_end_s = f64::NEG_INFINITY;
-    for (place, &second) in leaders.iter().enumerate() {
-        let time_s = scene.events[second].time_s;
-        if time_s > bin_end_s {
-            keep_best(&mut bin, &mut found);
-            bin_end_s = time_s + 1.0;
+    let leaders: Vec<Leader> = leaders(scene.events)
+        .into_iter()
+        .map(|event| Leader { event, time_s: scene.events[event].time_s, worth: -scene.ln_rate(event) })
+        .collect();
+    let mut found: Vec<Promise> = Vec::new();
+    let mut second: Vec<Promise> = Vec::new();
+    let mut end_s = f64::NEG_INFINITY;
+    for (place, leader) in leaders.iter().enumerate() {
+        if leader.time_s > end_s {
+            keep_best(&mut second, &mut found);
+            end_s = leader.time_s + 1.0;
         }
-        triples_around(scene, &leaders, place, &mut bin);
+        triples_around(scene, &leaders, place, &mut second);
     }
-    keep_best(&mut bin, &mut found);
+    keep_best(&mut second, &mut found);
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
     found.into_iter().map(|(_, seed)| seed).collect()
 }
 
-fn keep_best(bin: &mut Vec<(f64, [usize; 3])>, found: &mut Vec<(f64, [usize; 3])>) {
-    bin.sort_by(|a, b| b.0.total_cmp(&a.0));
-    found.extend(bin.drain(..).take(SEEDS_PER_S));
+fn keep_best(second: &mut Vec<Promise>, found: &mut Vec<Promise>) {
+    second.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.extend(second.drain(..).take(SEEDS_PER_S));
 }
 
-/// Events that few of their neighbours surpass.
+/// An event that may start a chain.
+#[derive(Debug, Clone, Copy)]
+struct Leader {
+    event: usize,
+    time_s: f64,
+    /// Minus ln of the rate of its like: the rarer, the more.
+    worth: f64,
+}
+
+/// Strong events that few of their neighbours surpass.
 fn leaders(events: &[Event]) -> Vec<usize> {
     let mut first = 0;
     let mut last = 0;
@@ -56,57 +72,51 @@ fn leaders(events: &[Event]) -> Vec<usize> {
             .filter(|e| e.strength > event.strength)
             .take(LEADERS)
             .count();
-        if stronger < LEADERS {
+                if stronger < LEADERS && event.strength >= LEAST_STRENGTH {
             leaders.push(i);
         }
     }
     leaders
 }
 
-fn triples_around(
-    scene: &Scene<'_>,
-    leaders: &[usize],
-    place: usize,
-    bin: &mut Vec<(f64, [usize; 3])>,
-) {
+fn triples_around(scene: &Scene<'_>, leaders: &[Leader], place: usize, found: &mut Vec<Promise>) {
     let second = leaders[place];
-    let time = |i: usize| scene.events[i].time_s;
-    for &first in leaders[..place].iter().rev() {
-        let flight = time(second) - time(first);
+    for first in leaders[..place].iter().rev() {
+        let flight = second.time_s - first.time_s;
         if flight > scene.settings.longest_flight_s {
             break;
         }
-        for &third in &leaders[place + 1..] {
-            let next = time(third) - time(second);
+        for third in &leaders[place + 1..] {
+            let next = third.time_s - second.time_s;
             if next > RATIOS.1 * flight {
                 break;
             }
             if next < RATIOS.0 * flight || next < scene.settings.shortest_flight_s {
                 continue;
             }
-            let seed = [first, second, third];
-            let strength: f64 = seed.iter().map(|&i| -scene.ln_rates[i]).sum();
+            let triple = [*first, second, *third];
             // Rare events and short flights say more: chance fills a long flight with anything.
-            bin.push((
-                strength + neighbour(scene, seed) - flight.ln() - next.ln(),
-                seed,
-            ));
+            let worth: f64 = triple.iter().map(|l| l.worth).sum::<f64>() - flight.ln() - next.ln();
+            found.push((worth + neighbour(scene, leaders, triple), triple.map(|l| l.event)));
         }
     }
 }
 
+/// An impact before or after three others is sought within this share of its flight.
+const NEIGHBOUR_REACH: f64 = 0.1;
+
 /// What the best match for the impact after or before the three is worth, in nats; 0 where there is none.
-fn neighbour(scene: &Scene<'_>, seed: [usize; 3]) -> f64 {
-    let [t0, t1, t2] = seed.map(|i| scene.events[i].time_s);
+fn neighbour(scene: &Scene<'_>, leaders: &[Leader], triple: [Leader; 3]) -> f64 {
+    let [t0, t1, t2] = triple.map(|l| l.time_s);
     let mut law = FlightLaw::prior(scene.settings);
-    law.learn(t1 - t0, t2 - t1, 0, scene.settings);
+    let jitter_s = scene.jitter_s(triple.map(|l| l.event));
+    law.learn(t1 - t0, t2 - t1, Doubt { unheard: 0, jitter_s });
     let (next, previous) = (law.next_s(t2 - t1), law.previous_s(t1 - t0));
     let worth = |centre_s: f64, flight_s: f64| {
-        let reach = 0.1 * flight_s;
-        scene
-            .between(centre_s - reach, centre_s + reach)
-            .map(|i| -scene.ln_rates[i] - (2.0 * reach).ln())
-            .fold(0.0, f64::max)
+        let reach = NEIGHBOUR_REACH * flight_s;
+        let from = leaders.partition_point(|l| l.time_s < centre_s - reach);
+        let near = leaders[from..].iter().take_while(|l| l.time_s <= centre_s + reach);
+        near.map(|l| l.worth - (2.0 * reach).ln()).fold(0.0, f64::max)
     };
     worth(t2 + next, next).max(worth(t0 - previous, previous))
 }

@@ -1,11 +1,14 @@
 //! Following a drop from three of its impacts, forwards and backwards in time.
 
-use super::clutter::Clutter;
-use super::flight::{FlightLaw, GATE};
+use std::cell::RefCell;
+use std::collections::HashMap;
+
+use super::clutter::{Clutter, Explained};
+use super::flight::{Doubt, FlightLaw, GATE};
 use super::{Event, Settings};
 
 /// Hypotheses kept at each step: enough for an echo, a knock and a silence to compete with the true impact.
-const BEAM: usize = 12;
+const BEAM: usize = 5;
 /// Nats a step must earn: under chance the best match in a window earns about one, so a chain of chance events loses.
 const STEP_COST: f64 = 3.5;
 /// Nats lost for an expected impact that nobody hears, where impacts are faint …
@@ -30,31 +33,45 @@ const WIDEST_WINDOW: f64 = 0.25;
 pub struct Scene<'a> {
     /// The events in order of time.
     pub events: &'a [Event],
-    /// ln of the rate of events at least as strong as each, per second.
-    pub ln_rates: Vec<f64>,
-    /// ln of the recording's length in seconds.
-    pub ln_duration: f64,
     /// What is known of balls.
     pub settings: &'a Settings,
+        clutter: &'a Clutter,
+    explained: Explained,
+    /// Rates that were asked for: hypotheses meet at the same events again and again.
+    ln_rates: RefCell<HashMap<usize, f64>>,
 }
 
 impl<'a> Scene<'a> {
-    /// Prepares the rates of all events.
+    /// All events, none of them explained.
     #[must_use]
-    pub fn new(events: &'a [Event], settings: &'a Settings) -> Self {
-        Self::without(events, settings, &vec![false; events.len()])
+    pub fn new(events: &'a [Event], clutter: &'a Clutter, settings: &'a Settings) -> Self {
+        Self { events, settings, clutter, explained: Explained::default(), ln_rates: RefCell::default() }
     }
 
-    /// Prepares the rates as they are without the events that are explained already.
+    /// The same events, some of them no longer clutter: indices in order.
     #[must_use]
-    pub fn without(events: &'a [Event], settings: &'a Settings, explained: &[bool]) -> Self {
-        let clutter = Clutter::new(events, explained);
-        Self {
-            ln_rates: events.iter().map(|e| clutter.rate_per_s(e).ln()).collect(),
-            ln_duration: clutter.duration_s().ln(),
-            events,
-            settings,
-        }
+    pub fn without(&self, explained: &[usize]) -> Self {
+        let explained = Explained::new(explained.iter().map(|&i| self.events[i]).collect());
+        Self { explained, ln_rates: RefCell::default(), ..*self }
+    }
+
+    /// ln of the rate of clutter at least as strong as this event, per second.
+    pub(super) fn ln_rate(&self, event: usize) -> f64 {
+        let rate = || self.clutter.rate_per_s(&self.events[event], &self.explained).ln();
+        *self.ln_rates.borrow_mut().entry(event).or_insert_with(rate)
+    }
+
+    /// The length of the recording in seconds, at least one.
+    pub(super) const fn duration_s(&self) -> f64 {
+        self.clutter.duration_s()
+    }
+
+    /// The greatest jitter of three events.
+    pub(super) fn jitter_s(&self, events: [usize; 3]) -> f64 {
+        events
+            .iter()
+            .map(|&i| self.events[i].jitter_s)
+            .fold(0.0, f64::max)
     }
 
     /// Indices of the events in an interval of time.
@@ -79,7 +96,7 @@ pub struct Step {
     pub event: Option<usize>,
     /// Seconds from the first sample.
     pub time_s: f64,
-        /// Nats this step earned.
+    /// Nats this step earned.
     pub gain: f64,
     /// How many events as strong chance would offer near it: within a few hundredths of its flight.
     pub chance: f64,
@@ -90,7 +107,7 @@ const MATCH_WIDTH: f64 = 0.06;
 
 impl Scene<'_> {
     fn chance(&self, event: usize, flight_s: f64) -> f64 {
-        self.ln_rates[event].exp() * MATCH_WIDTH * flight_s
+        self.ln_rate(event).exp() * MATCH_WIDTH * flight_s
     }
 }
 
@@ -103,7 +120,7 @@ struct Hypothesis {
     /// Time of the last impact and the flight that ended (forward) or began (backward) there.
     time_s: f64,
     flight_s: f64,
-        silent: usize,
+    doubt: Doubt,
     /// Mean of ln strength of the last few impacts.
     loudness: f64,
     score: f64,
@@ -118,27 +135,49 @@ pub fn follow(scene: &Scene<'_>, seed: [usize; 3]) -> (Vec<Step>, f64) {
     let t = seed.map(|i| scene.events[i].time_s);
     let (first, second) = (t[1] - t[0], t[2] - t[1]);
     let mut law = FlightLaw::prior(scene.settings);
-    let expected = law.expect(first, second, 0, scene.settings);
+    let doubt = Doubt {
+        unheard: 0,
+        jitter_s: scene.jitter_s(seed),
+    };
+    let expected = law.expect(first, second, doubt);
     let ratio_density = expected.ln_density((second / first).ln() - expected.mean) - second.ln();
-    law.learn(first, second, 0, scene.settings);
+    law.learn(first, second, doubt);
     // The first impact may be anywhere in the recording, the second anywhere within the longest flight.
     let gains = [
-        -scene.ln_rates[seed[0]] - scene.ln_duration,
-        -scene.ln_rates[seed[1]] - scene.settings.longest_flight_s.ln(),
-        ratio_density - scene.ln_rates[seed[2]],
+        -scene.ln_rate(seed[0]) - scene.duration_s().ln(),
+        -scene.ln_rate(seed[1]) - scene.settings.longest_flight_s.ln(),
+        ratio_density - scene.ln_rate(seed[2]),
     ];
     let middle: Vec<Step> = (0..3)
-        .map(|i| Step { event: Some(seed[i]), time_s: t[i], gain: gains[i], chance: scene.chance(seed[i], second) })
+        .map(|i| Step {
+            event: Some(seed[i]),
+            time_s: t[i],
+            gain: gains[i],
+            chance: scene.chance(seed[i], second),
+        })
         .collect();
     let loudness = seed.iter().map(|&i| ln_strength(scene, i)).sum::<f64>() / 3.0;
-    let start = Hypothesis { last: None, law, time_s: t[2], flight_s: second, silent: 0, loudness, score: 0.0 };
+    let start = Hypothesis {
+        last: None,
+        law,
+        time_s: t[2],
+        flight_s: second,
+        doubt,
+        loudness,
+        score: 0.0,
+    };
     let forward = extend(scene, start, Way::Forward);
     let mut law_back = law;
     let late: Vec<f64> = std::iter::once(t[2])
         .chain(forward.iter().map(|s| s.time_s))
         .collect();
-    relearn(&mut law_back, second, &late, scene.settings);
-    let start = Hypothesis { law: law_back.at_large(scene.settings), time_s: t[0], flight_s: first, ..start };
+    relearn(&mut law_back, second, &late, doubt);
+    let start = Hypothesis {
+        law: law_back.at_large(scene.settings),
+        time_s: t[0],
+        flight_s: first,
+        ..start
+    };
     let backward = extend(scene, start, Way::Backward);
     let chain: Vec<Step> = backward
         .into_iter()
@@ -151,10 +190,10 @@ pub fn follow(scene: &Scene<'_>, seed: [usize; 3]) -> (Vec<Step>, f64) {
 }
 
 /// The flights found forwards sharpen the law before it is used backwards.
-fn relearn(law: &mut FlightLaw, mut flight_s: f64, times_s: &[f64], settings: &Settings) {
+fn relearn(law: &mut FlightLaw, mut flight_s: f64, times_s: &[f64], doubt: Doubt) {
     for pair in times_s.windows(2) {
         let next = pair[1] - pair[0];
-        law.learn(flight_s, next, 0, settings);
+        law.learn(flight_s, next, doubt);
         flight_s = next;
     }
 }
@@ -183,7 +222,10 @@ fn extend(scene: &Scene<'_>, start: Hypothesis, way: Way) -> Vec<Step> {
                 beam.push(h);
             }
         }
-        let heard = beam.iter().filter(|h| h.silent == 0).max_by(|a, b| a.score.total_cmp(&b.score));
+        let heard = beam
+            .iter()
+            .filter(|h| h.doubt.unheard == 0)
+            .max_by(|a, b| a.score.total_cmp(&b.score));
         if let Some(&leader) = heard.filter(|h| h.score > best.score) {
             best = leader;
         }
@@ -205,21 +247,35 @@ impl Hypothesis {
             Way::Forward => (self.law.next_s(self.flight_s), 1.0),
             Way::Backward => (self.law.previous_s(self.flight_s), -1.0),
         };
-        if flight < scene.settings.shortest_flight_s || flight > 1.2 * scene.settings.longest_flight_s {
+        if flight < scene.settings.shortest_flight_s
+            || flight > 1.2 * scene.settings.longest_flight_s
+        {
             return;
         }
         let (earlier, later) = self.in_order(flight, way);
-        let sd = self.law.expect(earlier, later, self.silent, scene.settings).variance().sqrt();
+        let sd = self
+            .law
+            .expect(earlier, later, self.doubt)
+            .variance()
+            .sqrt();
         let reach = flight * (GATE * sd).min(WIDEST_WINDOW);
-        let (a, b) = (self.time_s + sign * (flight - reach), self.time_s + sign * (flight + reach));
+        let (a, b) = (
+            self.time_s + sign * (flight - reach),
+            self.time_s + sign * (flight + reach),
+        );
         for event in scene.between(a.min(b), a.max(b)) {
             next.extend(self.heard(scene, way, event, trail));
         }
-        if self.silent < LONGEST_SILENCE {
+        if self.doubt.unheard < LONGEST_SILENCE {
             let mut child = *self;
             child.flight_s = flight;
-            child.silent += 1;
-            let step = Step { event: None, time_s: self.time_s + sign * flight, gain: -self.silence_cost(), chance: 1.0 };
+            child.doubt.unheard += 1;
+            let step = Step {
+                event: None,
+                time_s: self.time_s + sign * flight,
+                gain: -self.silence_cost(),
+                chance: 1.0,
+            };
             next.push(child.after(step, trail));
         }
     }
@@ -230,26 +286,43 @@ impl Hypothesis {
         let (earlier, later) = self.in_order(flight, way);
         let ratio = later / earlier;
         let possible = (SHRINKAGE..GROWTH).contains(&ratio)
-            && (scene.settings.shortest_flight_s..scene.settings.longest_flight_s).contains(&flight);
+            && (scene.settings.shortest_flight_s..scene.settings.longest_flight_s)
+                .contains(&flight);
         if !possible {
             return None;
         }
-        let expected = self.law.expect(earlier, later, self.silent, scene.settings);
+        let jitter_s = self.doubt.jitter_s.max(scene.events[event].jitter_s);
+        let doubt = Doubt {
+            jitter_s,
+            ..self.doubt
+        };
+        let expected = self.law.expect(earlier, later, doubt);
         // The density is of ln T; per second it is divided by T.
         let density = expected.ln_density(ratio.ln() - expected.mean) - flight.ln();
         // Loudness is not monotone, but an impact much fainter than those around it is more likely to be something else.
         let fainter = (self.loudness - ln_strength(scene, event)).max(0.0) / LOUDNESS_SPREAD;
-        let gain = density - scene.ln_rates[event] - 0.5 * fainter * fainter - STEP_COST;
+        let gain = density - scene.ln_rate(event) - 0.5 * fainter * fainter - STEP_COST;
         if gain < -self.silence_cost() {
             // Silence explains it better.
             return None;
         }
         let mut child = *self;
-        child.law.learn(earlier, later, self.silent, scene.settings);
+        child.law.learn(earlier, later, doubt);
         child.flight_s = flight;
-        child.silent = 0;
+        child.doubt = Doubt {
+            unheard: 0,
+            jitter_s: scene.events[event].jitter_s,
+        };
         child.loudness += NEWEST_SHARE * (ln_strength(scene, event) - self.loudness);
-        Some(child.after(Step { event: Some(event), time_s, gain, chance: scene.chance(event, flight) }, trail))
+        Some(child.after(
+            Step {
+                event: Some(event),
+                time_s,
+                gain,
+                chance: scene.chance(event, flight),
+            },
+            trail,
+        ))
     }
 
     /// Nats lost for an impact that is expected and not heard.

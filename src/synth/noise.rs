@@ -36,7 +36,11 @@ fn add_babble(samples: &mut [f64], rate: f64, level: f64, rng: &mut SplitMix64) 
         let end = (start + length).min(samples.len());
         let syllable = syllable(end - start, rate, rng);
         let power = syllable.iter().map(|x| x * x).sum::<f64>() / real(syllable.len().max(1));
-        let gain = if power > 0.0 { level / libm::sqrt(power) } else { 0.0 };
+        let gain = if power > 0.0 {
+            level / libm::sqrt(power)
+        } else {
+            0.0
+        };
         for (x, y) in samples[start..end].iter_mut().zip(&syllable) {
             *x += gain * y;
         }
@@ -47,7 +51,11 @@ fn add_babble(samples: &mut [f64], rate: f64, level: f64, rng: &mut SplitMix64) 
 fn syllable(count: usize, rate: f64, rng: &mut SplitMix64) -> Vec<f64> {
     let voiced = rng.uniform() < 0.67;
     let (pitch_hz, glide) = (90.0 + 130.0 * rng.uniform(), 0.4 * rng.uniform() - 0.2);
-    let formants = [250.0 + 500.0 * rng.uniform(), 900.0 + 1_300.0 * rng.uniform(), 2_300.0 + 900.0 * rng.uniform()];
+    let formants = [
+        250.0 + 500.0 * rng.uniform(),
+        900.0 + 1_300.0 * rng.uniform(),
+        2_300.0 + 900.0 * rng.uniform(),
+    ];
     let mut phase = 0.0;
     let mut source: Vec<f64> = (0..count)
         .map(|i| {
@@ -55,7 +63,11 @@ fn syllable(count: usize, rate: f64, rng: &mut SplitMix64) -> Vec<f64> {
             phase += pitch_hz * (1.0 + glide * share) / rate;
             let pulse = if phase >= 1.0 { 1.0 } else { 0.0 };
             phase -= pulse;
-            let excitation = if voiced { pulse + 0.01 * rng.normal() } else { 0.2 * rng.normal() };
+            let excitation = if voiced {
+                pulse + 0.01 * rng.normal()
+            } else {
+                0.2 * rng.normal()
+            };
             // A syllable swells in a tenth of its time and fades over the rest.
             let swell = (10.0 * share).min(1.0) * libm::cos(0.5 * std::f64::consts::PI * share);
             excitation * swell
@@ -70,7 +82,10 @@ fn syllable(count: usize, rate: f64, rng: &mut SplitMix64) -> Vec<f64> {
 /// A two-pole resonance added to what comes in.
 fn resonate(samples: &mut [f64], frequency_hz: f64, width_hz: f64, rate: f64) {
     let radius = libm::exp(-std::f64::consts::PI * width_hz / rate);
-    let (a, b) = (2.0 * radius * libm::cos(std::f64::consts::TAU * frequency_hz / rate), -radius * radius);
+    let (a, b) = (
+        2.0 * radius * libm::cos(std::f64::consts::TAU * frequency_hz / rate),
+        -radius * radius,
+    );
     let (mut y1, mut y2) = (0.0, 0.0);
     for x in samples {
         let y = *x + a * y1 + b * y2;

@@ -80,10 +80,17 @@ pub struct Noise {
 }
 
 /// Names of the presets.
-pub const PRESETS: [&str; 8] = ["steel", "pingpong", "rubber", "dead", "silence", "noise", "tone", "babble"];
+pub const PRESETS: [&str; 8] = [
+    "steel", "pingpong", "rubber", "dead", "silence", "noise", "tone", "babble",
+];
 
 const NONE: f64 = f64::NEG_INFINITY;
-const QUIET: Noise = Noise { white_db: -70.0, tone_db: NONE, tone_hz: 1_000.0, babble_db: NONE };
+const QUIET: Noise = Noise {
+    white_db: -70.0,
+    tone_db: NONE,
+    tone_hz: 1_000.0,
+    babble_db: NONE,
+};
 
 /// The scene of this name.
 ///
@@ -92,13 +99,45 @@ const QUIET: Noise = Noise { white_db: -70.0, tone_db: NONE, tone_hz: 1_000.0, b
 pub fn preset(name: &str) -> Result<Scene, Error> {
     match name {
         "steel" => Ok(with_drop(name, steel(), 4.0, &[])),
-        "pingpong" => Ok(with_drop(name, ping_pong(), 7.0, &[Echo { delay_s: 10.3e-3, level_db: -10.0 }])),
+        "pingpong" => Ok(with_drop(
+            name,
+            ping_pong(),
+            7.0,
+            &[Echo {
+                delay_s: 10.3e-3,
+                level_db: -10.0,
+            }],
+        )),
         "rubber" => Ok(with_drop(name, rubber(), 4.0, &[])),
         "dead" => Ok(with_drop(name, dead(), 3.0, &[])),
-        "silence" => Ok(without_drop(name, Noise { white_db: NONE, ..QUIET })),
-        "noise" => Ok(without_drop(name, Noise { white_db: -30.0, ..QUIET })),
-        "tone" => Ok(without_drop(name, Noise { tone_db: -12.0, ..QUIET })),
-        "babble" => Ok(without_drop(name, Noise { babble_db: -20.0, ..QUIET })),
+        "silence" => Ok(without_drop(
+            name,
+            Noise {
+                white_db: NONE,
+                ..QUIET
+            },
+        )),
+        "noise" => Ok(without_drop(
+            name,
+            Noise {
+                white_db: -30.0,
+                ..QUIET
+            },
+        )),
+        "tone" => Ok(without_drop(
+            name,
+            Noise {
+                tone_db: -12.0,
+                ..QUIET
+            },
+        )),
+        "babble" => Ok(without_drop(
+            name,
+            Noise {
+                babble_db: -20.0,
+                ..QUIET
+            },
+        )),
         _ => Err(Error::Argument {
             argument: "--preset",
             got: format!("'{name}'"),
@@ -132,7 +171,11 @@ fn without_drop(name: &str, noise: Noise) -> Scene {
 }
 
 const fn mode(frequency_hz: f64, decay_s: f64, level: f64) -> Mode {
-    Mode { frequency_hz, decay_s, level }
+    Mode {
+        frequency_hz,
+        decay_s,
+        level,
+    }
 }
 
 /// A 20 mm ball bearing on a thick plate.
@@ -146,7 +189,11 @@ fn steel() -> DropScene {
         restitution: 0.90,
         bounce_scatter: 0.003,
         contact_time_s: 0.08e-3,
-        modes: vec![mode(5_200.0, 6e-3, 1.0), mode(9_700.0, 4e-3, 0.8), mode(14_300.0, 2e-3, 0.6)],
+        modes: vec![
+            mode(5_200.0, 6e-3, 1.0),
+            mode(9_700.0, 4e-3, 0.8),
+            mode(14_300.0, 2e-3, 0.6),
+        ],
         level_scatter: 0.1,
     }
 }
@@ -162,7 +209,11 @@ fn ping_pong() -> DropScene {
         restitution: 0.93,
         bounce_scatter: 0.004,
         contact_time_s: 0.7e-3,
-        modes: vec![mode(1_300.0, 8e-3, 1.0), mode(6_800.0, 3e-3, 0.5), mode(9_400.0, 4e-3, 0.5)],
+        modes: vec![
+            mode(1_300.0, 8e-3, 1.0),
+            mode(6_800.0, 3e-3, 0.5),
+            mode(9_400.0, 4e-3, 0.5),
+        ],
         level_scatter: 0.15,
     }
 }
@@ -177,8 +228,12 @@ fn rubber() -> DropScene {
         drag: false,
         restitution: 0.75,
         bounce_scatter: 0.006,
-        contact_time_s: 4e-3,
-        modes: vec![mode(140.0, 15e-3, 1.0), mode(310.0, 10e-3, 0.7), mode(720.0, 6e-3, 0.4)],
+        contact_time_s: 2.5e-3,
+        modes: vec![
+            mode(320.0, 12e-3, 1.0),
+            mode(780.0, 7e-3, 0.7),
+            mode(2_100.0, 3e-3, 0.5),
+        ],
         level_scatter: 0.1,
     }
 }
@@ -186,15 +241,19 @@ fn rubber() -> DropScene {
 /// A ball that hardly bounces: five impacts.
 fn dead() -> DropScene {
     DropScene {
-        height_m: 0.12,
+        height_m: 0.1,
         first_impact_s: 1.0,
         mass_kg: 0.050,
         diameter_m: 0.040,
         drag: false,
         restitution: 0.40,
         bounce_scatter: 0.005,
-        contact_time_s: 4e-3,
-        modes: vec![mode(230.0, 5e-3, 1.0), mode(610.0, 4e-3, 0.8), mode(1_450.0, 2e-3, 0.5)],
+        contact_time_s: 2.5e-3,
+        modes: vec![
+            mode(380.0, 6e-3, 1.0),
+            mode(1_100.0, 4e-3, 0.7),
+            mode(2_600.0, 2e-3, 0.5),
+        ],
         level_scatter: 0.1,
     }
 }
@@ -203,14 +262,26 @@ impl Scene {
     /// Whether all numbers are in range.
     pub(super) fn check(&self) -> Result<(), Error> {
         if self.sample_rate_hz < 1_000 {
-            return Err(Error::argument("sample_rate_hz", f64::from(self.sample_rate_hz), "1000 or more"));
+            return Err(Error::argument(
+                "sample_rate_hz",
+                f64::from(self.sample_rate_hz),
+                "1000 or more",
+            ));
         }
         if !(self.duration_s.is_finite() && self.duration_s > 0.0 && self.duration_s < 86_400.0) {
-            return Err(Error::argument("duration_s", self.duration_s, "above 0 s and below a day"));
+            return Err(Error::argument(
+                "duration_s",
+                self.duration_s,
+                "above 0 s and below a day",
+            ));
         }
         for drop in &self.drops {
             if !(drop.first_impact_s >= 0.0 && drop.first_impact_s < self.duration_s) {
-                return Err(Error::argument("first_impact_s", drop.first_impact_s, "a time within the recording"));
+                return Err(Error::argument(
+                    "first_impact_s",
+                    drop.first_impact_s,
+                    "a time within the recording",
+                ));
             }
         }
         Ok(())

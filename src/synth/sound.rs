@@ -31,27 +31,44 @@ impl Sound {
     /// The sound of modes excited by a contact of this length in seconds.
     #[must_use]
     pub fn new(modes: &[Mode], contact_time_s: f64) -> Self {
-        Self { modes: modes.to_vec(), levels: modes.iter().map(|m| m.level).collect(), contact_time_s }
+        Self {
+            modes: modes.to_vec(),
+            levels: modes.iter().map(|m| m.level).collect(),
+            contact_time_s,
+        }
     }
 
     /// The same sound with each mode's level multiplied.
     #[must_use]
     pub fn with_levels(&self, factors: &[f64]) -> Self {
-        let levels = self.modes.iter().zip(factors).map(|(m, f)| m.level * f).collect();
-        Self { levels, ..self.clone() }
+        let levels = self
+            .modes
+            .iter()
+            .zip(factors)
+            .map(|(m, f)| m.level * f)
+            .collect();
+        Self {
+            levels,
+            ..self.clone()
+        }
     }
 
     /// Pressure at `t_s` seconds after the touch; 0 before it.
     #[must_use]
     pub fn at(&self, t_s: f64) -> f64 {
-        let parts = self.modes.iter().zip(&self.levels).map(|(m, level)| level * response(m, self.contact_time_s, t_s));
+        let parts = self
+            .modes
+            .iter()
+            .zip(&self.levels)
+            .map(|(m, level)| level * response(m, self.contact_time_s, t_s));
         parts.sum()
     }
 
     /// Adds the sound of an impact at `onset_s` to samples, times `gain`; gives the sum of its squares.
     pub fn add(&self, samples: &mut [f64], rate: f64, onset_s: f64, gain: f64) -> f64 {
         let longest = self.modes.iter().map(|m| m.decay_s).fold(0.0, f64::max);
-        let end = samples_in(onset_s + self.contact_time_s + DECAYS * longest, rate).min(samples.len());
+        let end =
+            samples_in(onset_s + self.contact_time_s + DECAYS * longest, rate).min(samples.len());
         let mut energy = 0.0;
         for i in samples_in(onset_s, rate)..end {
             let pressure = gain * self.at(instant_s(i, rate) - onset_s);
@@ -67,13 +84,19 @@ fn response(mode: &Mode, contact_time_s: f64, t_s: f64) -> f64 {
     if t_s <= 0.0 {
         return 0.0;
     }
-    let lambda: Complex = (-1.0 / mode.decay_s, std::f64::consts::TAU * mode.frequency_hz);
+    let lambda: Complex = (
+        -1.0 / mode.decay_s,
+        std::f64::consts::TAU * mode.frequency_hz,
+    );
     let omega = std::f64::consts::PI / contact_time_s;
     let tau = t_s.min(contact_time_s);
     let (sin, cos) = (libm::sin(omega * tau), libm::cos(omega * tau));
     // exp(λt)·Ω − exp(λ(t − τ))·(λ sin Ωτ + Ω cos Ωτ): both exponents fall, so nothing overflows.
     let free = scaled(exponential(lambda, t_s), omega);
-    let forced = product(exponential(lambda, t_s - tau), (lambda.0 * sin + omega * cos, lambda.1 * sin));
+    let forced = product(
+        exponential(lambda, t_s - tau),
+        (lambda.0 * sin + omega * cos, lambda.1 * sin),
+    );
     let numerator = (free.0 - forced.0, free.1 - forced.1);
     let square = product(lambda, lambda);
     quotient(numerator, (square.0 + omega * omega, square.1)).1 / contact_time_s
@@ -81,7 +104,10 @@ fn response(mode: &Mode, contact_time_s: f64, t_s: f64) -> f64 {
 
 fn exponential(lambda: Complex, t_s: f64) -> Complex {
     let size = libm::exp(lambda.0 * t_s);
-    (size * libm::cos(lambda.1 * t_s), size * libm::sin(lambda.1 * t_s))
+    (
+        size * libm::cos(lambda.1 * t_s),
+        size * libm::sin(lambda.1 * t_s),
+    )
 }
 
 fn scaled(a: Complex, by: f64) -> Complex {
@@ -94,7 +120,10 @@ fn product(a: Complex, b: Complex) -> Complex {
 
 fn quotient(a: Complex, b: Complex) -> Complex {
     let size = b.0 * b.0 + b.1 * b.1;
-    ((a.0 * b.0 + a.1 * b.1) / size, (a.1 * b.0 - a.0 * b.1) / size)
+    (
+        (a.0 * b.0 + a.1 * b.1) / size,
+        (a.1 * b.0 - a.0 * b.1) / size,
+    )
 }
 
 #[cfg(test)]
@@ -104,7 +133,11 @@ mod tests {
 
     #[test]
     fn the_closed_form_is_the_integral() {
-        let mode = Mode { frequency_hz: 900.0, decay_s: 4e-3, level: 1.0 };
+        let mode = Mode {
+            frequency_hz: 900.0,
+            decay_s: 4e-3,
+            level: 1.0,
+        };
         let contact = 1.3e-3;
         for t in [0.2e-3, 1.0e-3, 1.3e-3, 2.0e-3, 7.0e-3] {
             // The definition, summed by the midpoint rule.
@@ -113,12 +146,17 @@ mod tests {
             let sum: f64 = (0..steps)
                 .map(|k| {
                     let s = (real(k) + 0.5) * ds;
-                    let ring = (-(t - s) / mode.decay_s).exp() * (std::f64::consts::TAU * mode.frequency_hz * (t - s)).sin();
+                    let ring = (-(t - s) / mode.decay_s).exp()
+                        * (std::f64::consts::TAU * mode.frequency_hz * (t - s)).sin();
                     ring * (std::f64::consts::PI * s / contact).sin() * ds
                 })
                 .sum();
             let closed = response(&mode, contact, t);
-            assert!((closed - sum / contact).abs() < 1e-8, "{t}: {closed} {}", sum / contact);
+            assert!(
+                (closed - sum / contact).abs() < 1e-8,
+                "{t}: {closed} {}",
+                sum / contact
+            );
         }
     }
 }

@@ -50,14 +50,18 @@ pub fn align(impacts: &[(&Window, f64)], sample_rate_hz: f64) -> Vec<Option<Matc
         for (i, (window, first)) in impacts.iter().enumerate() {
             // Without its own sound, or every impact would match itself where it already is.
             let others: Vec<f64> = sum.iter().zip(&cuts[i]).map(|(s, c)| s - c).collect();
-            matches[i] = best(&window.samples, &others, *first - real(before), search).map(|m| Match {
-                position: m.position + real(before),
-                ..m
-            });
+            matches[i] =
+                best(&window.samples, &others, *first - real(before), search).map(|m| Match {
+                    position: m.position + real(before),
+                    ..m
+                });
         }
         // The mean offset is not measured by matching one another: keep it where the fractions put it.
-        let moves: Vec<f64> =
-            matches.iter().zip(impacts).filter_map(|(m, (_, first))| Some(m.as_ref()?.position - first)).collect();
+        let moves: Vec<f64> = matches
+            .iter()
+            .zip(impacts)
+            .filter_map(|(m, (_, first))| Some(m.as_ref()?.position - first))
+            .collect();
         let drift = median(moves);
         for ((m, p), (_, first)) in matches.iter_mut().zip(&mut positions).zip(impacts) {
             if let Some(m) = m {
@@ -89,8 +93,10 @@ fn best(samples: &[f64], shape: &[f64], first: f64, search: usize) -> Option<Mat
     let reach = search + KERNEL;
     let start = base.checked_sub(reach)?;
     let needed = samples.get(start..base + reach + shape.len() + 1)?;
-    let products: Vec<f64> =
-        needed.windows(shape.len()).map(|w| w.iter().zip(shape).map(|(a, b)| a * b).sum()).collect();
+    let products: Vec<f64> = needed
+        .windows(shape.len())
+        .map(|w| w.iter().zip(shape).map(|(a, b)| a * b).sum())
+        .collect();
     let inside = KERNEL..products.len() - KERNEL;
     let top = inside.max_by(|&a, &b| products[a].total_cmp(&products[b]))?;
     let (offset, height) = maximum(&products, top);
@@ -101,11 +107,18 @@ fn best(samples: &[f64], shape: &[f64], first: f64, search: usize) -> Option<Mat
         return None;
     }
     let amplitude = height / energy;
-    let left: f64 = matched.iter().zip(shape).map(|(x, s)| (x - amplitude * s).powi(2)).sum();
+    let left: f64 = matched
+        .iter()
+        .zip(shape)
+        .map(|(x, s)| (x - amplitude * s).powi(2))
+        .sum();
     let slopes: f64 = shape.windows(2).map(|w| (w[1] - w[0]).powi(2)).sum();
     // σ_t = σ / √(Σ (a·ds/dt)²): σ is the noise, or what the mean impact does not explain where that is more.
     let noise = (left / real(shape.len())).max(1.0).sqrt();
-    Some(Match { position: real(start) + offset, std: noise / (amplitude * slopes.sqrt()) })
+    Some(Match {
+        position: real(start) + offset,
+        std: noise / (amplitude * slopes.sqrt()),
+    })
 }
 
 /// Maximum near index `top` of a band-limited sequence: bisection of the interval by thirds (golden section).
@@ -125,25 +138,44 @@ fn maximum(values: &[f64], top: usize) -> (f64, f64) {
     (x, interpolated(values, x))
 }
 
-/// A band-limited sequence between its samples: a sinc under a Hann window; zero outside.
+/// A band-limited sequence between its samples; zero outside.
 fn interpolated(values: &[f64], position: f64) -> f64 {
-    use std::f64::consts::PI;
-    let centre = samples_in(position, 1.0);
-    let first = centre.saturating_sub(KERNEL);
-    let last = (centre + KERNEL).min(values.len().saturating_sub(1));
-    (first..=last)
-        .map(|i| {
-            let x = position - real(i);
-            let sinc = if x.abs() < 1e-12 { 1.0 } else { (PI * x).sin() / (PI * x) };
-            let window = 0.5 + 0.5 * (PI * x / real(KERNEL + 1)).cos();
-            values[i] * sinc * window
-        })
-        .sum()
+    let (first, kernel) = kernel(position);
+    weighted(values, first, &kernel)
 }
 
 /// `length` samples from a position between samples on.
 fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
-    (0..length).map(|i| interpolated(samples, position + real(i))).collect()
+    let (first, kernel) = kernel(position);
+    (0..length).map(|i| weighted(samples, first.saturating_add_unsigned(i), &kernel)).collect()
+}
+
+/// A sinc under a Hann window around a position, and the index that its first weight belongs to.
+///
+/// `sin(π(x − i))` changes only its sign from one sample to the next.
+fn kernel(position: f64) -> (isize, [f64; 2 * KERNEL]) {
+    use std::f64::consts::PI;
+    let whole = position.floor();
+    let fraction = position - whole;
+    let sine = (PI * fraction).sin();
+    #[expect(clippy::cast_possible_truncation, reason = "positions lie within a window of samples")]
+    let first = whole as isize + 1 - KERNEL.cast_signed();
+    let weight = |i: usize| {
+        let x = fraction + real(KERNEL) - 1.0 - real(i);
+        if x.abs() < 1e-9 {
+            return 1.0;
+        }
+        // x = fraction + (KERNEL − 1 − i): the sine of the whole part is its parity.
+        let sign = if (KERNEL - 1).abs_diff(i).is_multiple_of(2) { 1.0 } else { -1.0 };
+        sign * sine / (PI * x) * (0.5 + 0.5 * (PI * x / real(KERNEL)).cos())
+    };
+    (first, std::array::from_fn(weight))
+}
+
+fn weighted(values: &[f64], first: isize, kernel: &[f64]) -> f64 {
+    let skip = usize::try_from(-first).unwrap_or(0);
+    let start = usize::try_from(first).unwrap_or(0).min(values.len());
+    kernel.iter().skip(skip).zip(&values[start..]).map(|(k, v)| k * v).sum()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -161,28 +193,58 @@ mod tests {
         let samples = (0..384)
             .map(|i| {
                 let t = real(i) - onset;
-                let tone = if t > 0.0 { (-t / 30.0).exp() * (t / 4.0).min(1.0) * (0.9 * t).sin() } else { 0.0 };
+                let tone = if t > 0.0 {
+                    (-t / 30.0).exp() * (t / 4.0).min(1.0) * (0.9 * t).sin()
+                } else {
+                    0.0
+                };
                 amplitude * tone + rng.normal()
             })
             .collect();
-        Window { samples, start: 0, coarse: 144 }
+        Window {
+            samples,
+            start: 0,
+            coarse: 144,
+        }
     }
 
     #[test]
     fn times_between_samples_are_found_within_their_errors() {
         let mut rng = SplitMix64::new(1);
-        let onsets: Vec<f64> = (0..20).map(|i| 144.0 + 0.37 * real(i % 7) + rng.uniform()).collect();
+        let onsets: Vec<f64> = (0..20)
+            .map(|i| 144.0 + 0.37 * real(i % 7) + rng.uniform())
+            .collect();
         let windows: Vec<Window> = onsets.iter().map(|&o| impact(o, 60.0, &mut rng)).collect();
-        let first: Vec<(&Window, f64)> =
-            windows.iter().zip(&onsets).map(|(w, o)| (w, o + 0.8 * (rng.uniform() - 0.5))).collect();
+        let first: Vec<(&Window, f64)> = windows
+            .iter()
+            .zip(&onsets)
+            .map(|(w, o)| (w, o + 0.8 * (rng.uniform() - 0.5)))
+            .collect();
         let matches = align(&first, 48_000.0);
-        let errors: Vec<f64> =
-            matches.iter().zip(&onsets).map(|(m, o)| m.unwrap().position - o).collect();
+        let errors: Vec<f64> = matches
+            .iter()
+            .zip(&onsets)
+            .map(|(m, o)| m.unwrap().position - o)
+            .collect();
         let mean = errors.iter().sum::<f64>() / 20.0;
         let rms = (errors.iter().map(|e| (e - mean).powi(2)).sum::<f64>() / 20.0).sqrt();
         let stated = matches.iter().map(|m| m.unwrap().std).sum::<f64>() / 20.0;
         assert!(rms < 0.05, "{rms}");
-        assert!((0.5..2.0).contains(&(rms / stated)), "rms {rms}, stated {stated}");
+        assert!(
+            (0.5..2.0).contains(&(rms / stated)),
+            "rms {rms}, stated {stated}"
+        );
+    }
+
+    #[test]
+    fn a_slow_wave_is_interpolated_exactly_and_samples_are_kept() {
+        let wave = |x: f64| (0.4 * x).sin() + 0.3 * (1.1 * x).cos();
+        let samples: Vec<f64> = (0..100).map(|i| wave(real(i))).collect();
+        for position in [30.0, 41.25, 50.5, 59.999_999, 60.0] {
+            assert!((interpolated(&samples, position) - wave(position)).abs() < 2e-3, "{position}");
+        }
+        assert!((interpolated(&samples, 30.0) - samples[30]).abs() < 1e-12);
+        assert!(interpolated(&samples, -3.0).is_finite() && interpolated(&samples, 104.5).is_finite());
     }
 
     #[test]
@@ -192,6 +254,9 @@ mod tests {
         windows.push(impact(144.0, 0.0, &mut rng));
         let first: Vec<(&Window, f64)> = windows.iter().map(|w| (w, 144.0)).collect();
         let matches = align(&first, 48_000.0);
-        assert!(matches[..6].iter().all(Option::is_some) && matches[6].is_none(), "{matches:?}");
+        assert!(
+            matches[..6].iter().all(Option::is_some) && matches[6].is_none(),
+            "{matches:?}"
+        );
     }
 }

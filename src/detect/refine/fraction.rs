@@ -23,14 +23,21 @@ const LATEST_S: f64 = 1.5e-3;
 /// The constant-fraction time of a window; none if its peak is not clear of the noise.
 #[must_use]
 pub fn time(window: &Window, sample_rate_hz: f64) -> Option<Rise> {
-    let envelope = envelope(&window.samples, samples_in(SMOOTHING_S, sample_rate_hz).max(1));
-    let from = window.coarse.saturating_sub(samples_in(EARLIEST_S, sample_rate_hz));
+    let envelope = envelope(
+        &window.samples,
+        samples_in(SMOOTHING_S, sample_rate_hz).max(1),
+    );
+    let from = window
+        .coarse
+        .saturating_sub(samples_in(EARLIEST_S, sample_rate_hz));
     let to = (window.coarse + samples_in(LATEST_S, sample_rate_hz)).min(envelope.len());
     let peak = (from..to).max_by(|&a, &b| envelope[a].total_cmp(&envelope[b]))?;
     // What rings on from the impact before is the level that this one rises from.
     let before = &envelope[from.saturating_sub(to - from)..from];
     let level = before.iter().sum::<f64>() / real(before.len().max(1));
-    let spread = (before.iter().map(|e| (e - level).powi(2)).sum::<f64>() / real(before.len().max(1))).sqrt();
+    let spread = (before.iter().map(|e| (e - level).powi(2)).sum::<f64>()
+        / real(before.len().max(1)))
+    .sqrt();
     if envelope[peak] < level + 2.0 * spread || before.is_empty() {
         return None;
     }
@@ -40,19 +47,26 @@ pub fn time(window: &Window, sample_rate_hz: f64) -> Option<Rise> {
     let position = real(above - 1) + (threshold - envelope[above - 1]) / slope;
     // The smoothed noise moves the crossing by spread/slope; the sampling of the envelope by some hundredths.
     let steepness = (envelope[peak] - level) / real((peak - above + 2).max(1));
-    Some(Rise { position, std: (spread / steepness).hypot(0.3) })
+    Some(Rise {
+        position,
+        std: (spread / steepness).hypot(0.3),
+    })
 }
 
 /// Root mean square over `2·reach + 1` samples with triangular weights.
 fn envelope(samples: &[f64], reach: usize) -> Vec<f64> {
-    let weights: Vec<f64> = (0..=2 * reach).map(|i| real(reach + 1 - i.abs_diff(reach))).collect();
+    let weights: Vec<f64> = (0..=2 * reach)
+        .map(|i| real(reach + 1 - i.abs_diff(reach)))
+        .collect();
     let total: f64 = weights.iter().sum();
     (0..samples.len())
         .map(|centre| {
             let sum: f64 = weights
                 .iter()
                 .enumerate()
-                .filter_map(|(i, w)| Some(w * samples.get((centre + i).checked_sub(reach)?)?.powi(2)))
+                .filter_map(|(i, w)| {
+                    Some(w * samples.get((centre + i).checked_sub(reach)?)?.powi(2))
+                })
                 .sum();
             (sum / total).sqrt()
         })

@@ -56,23 +56,44 @@ pub struct Window {
 /// The result is in the same order. Where a method fails on an impact (its window is cut by the end of the recording,
 /// or nothing rises in it) the coarse time stays, with the error of the grid.
 #[must_use]
-pub fn refine(samples: &[f32], sample_rate_hz: f64, coarse_s: &[f64], hop_s: f64, timing: Timing) -> Vec<Timed> {
-    let grid: Vec<Timed> = coarse_s.iter().map(|&time_s| Timed { time_s, std_s: GRID_ERROR * hop_s }).collect();
+pub fn refine(
+    samples: &[f32],
+    sample_rate_hz: f64,
+    coarse_s: &[f64],
+    hop_s: f64,
+    timing: Timing,
+) -> Vec<Timed> {
+    let grid: Vec<Timed> = coarse_s
+        .iter()
+        .map(|&time_s| Timed {
+            time_s,
+            std_s: GRID_ERROR * hop_s,
+        })
+        .collect();
     if timing == Timing::Envelope || coarse_s.is_empty() {
         return grid;
     }
     let whitener = whiten::Whitener::learn(samples, sample_rate_hz, coarse_s);
-    let windows: Vec<Option<Window>> =
-        coarse_s.iter().map(|&time_s| window(samples, sample_rate_hz, time_s, &whitener)).collect();
-    let rises: Vec<Option<fraction::Rise>> =
-        windows.iter().map(|w| fraction::time(w.as_ref()?, sample_rate_hz)).collect();
+    let windows: Vec<Option<Window>> = coarse_s
+        .iter()
+        .map(|&time_s| window(samples, sample_rate_hz, time_s, &whitener))
+        .collect();
+    let rises: Vec<Option<fraction::Rise>> = windows
+        .iter()
+        .map(|w| fraction::time(w.as_ref()?, sample_rate_hz))
+        .collect();
     let in_recording = |w: &Window, position: f64| (real(w.start) + position) / sample_rate_hz;
-    let by_fraction = windows.iter().zip(&rises).zip(&grid).map(|((w, rise), &grid)| match (w, rise) {
-        (Some(w), Some(rise)) => {
-            Timed { time_s: in_recording(w, rise.position), std_s: rise.std / sample_rate_hz }
-        }
-        _ => grid,
-    });
+    let by_fraction = windows
+        .iter()
+        .zip(&rises)
+        .zip(&grid)
+        .map(|((w, rise), &grid)| match (w, rise) {
+            (Some(w), Some(rise)) => Timed {
+                time_s: in_recording(w, rise.position),
+                std_s: rise.std / sample_rate_hz,
+            },
+            _ => grid,
+        });
     let mut timed: Vec<Timed> = by_fraction.collect();
     if timing == Timing::Correlation {
         let known: Vec<(usize, &Window, f64)> = windows
@@ -84,17 +105,29 @@ pub fn refine(samples: &[f32], sample_rate_hz: f64, coarse_s: &[f64], hop_s: f64
         let pairs: Vec<(&Window, f64)> = known.iter().map(|&(_, w, p)| (w, p)).collect();
         for (&(i, w, _), matched) in known.iter().zip(correlation::align(&pairs, sample_rate_hz)) {
             if let Some(m) = matched {
-                timed[i] = Timed { time_s: in_recording(w, m.position), std_s: m.std / sample_rate_hz };
+                timed[i] = Timed {
+                    time_s: in_recording(w, m.position),
+                    std_s: m.std / sample_rate_hz,
+                };
             }
         }
     }
     timed
 }
 
-fn window(samples: &[f32], sample_rate_hz: f64, time_s: f64, whitener: &whiten::Whitener) -> Option<Window> {
+fn window(
+    samples: &[f32],
+    sample_rate_hz: f64,
+    time_s: f64,
+    whitener: &whiten::Whitener,
+) -> Option<Window> {
     let centre = samples_in(time_s, sample_rate_hz);
     let start = centre.checked_sub(samples_in(BEFORE_S, sample_rate_hz))?;
     let end = centre + samples_in(AFTER_S, sample_rate_hz);
     let whitened = whitener.apply(samples, start, end)?;
-    Some(Window { samples: whitened, start, coarse: centre - start })
+    Some(Window {
+        samples: whitened,
+        start,
+        coarse: centre - start,
+    })
 }

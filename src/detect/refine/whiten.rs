@@ -31,7 +31,11 @@ impl Whitener {
         let mut count = 0;
         for frame in &quiet {
             for (lag, sum) in correlation.iter_mut().enumerate() {
-                *sum += frame[lag..].iter().zip(*frame).map(|(&a, &b)| f64::from(a) * f64::from(b)).sum::<f64>();
+                *sum += frame[lag..]
+                    .iter()
+                    .zip(*frame)
+                    .map(|(&a, &b)| f64::from(a) * f64::from(b))
+                    .sum::<f64>();
             }
             count += frame.len();
         }
@@ -40,7 +44,10 @@ impl Whitener {
         }
         correlation[0] = correlation[0] * (1.0 + REGULARISATION) + LEAST_NOISE * LEAST_NOISE;
         let (predictor, error) = levinson(&correlation);
-        Self { predictor, scale: 1.0 / error.sqrt() }
+        Self {
+            predictor,
+            scale: 1.0 / error.sqrt(),
+        }
     }
 
     /// Whitens `samples[start..end]`; none if the recording does not reach that far, with the filter's own past.
@@ -52,8 +59,12 @@ impl Whitener {
             needed
                 .windows(ORDER + 1)
                 .map(|w| {
-                    let predicted: f64 =
-                        self.predictor.iter().zip(w.iter().rev().skip(1)).map(|(a, &x)| a * f64::from(x)).sum();
+                    let predicted: f64 = self
+                        .predictor
+                        .iter()
+                        .zip(w.iter().rev().skip(1))
+                        .map(|(a, &x)| a * f64::from(x))
+                        .sum();
                     self.scale * (f64::from(w[ORDER]) - predicted)
                 })
                 .collect(),
@@ -63,15 +74,23 @@ impl Whitener {
 
 fn quiet_frames<'a>(samples: &'a [f32], sample_rate_hz: f64, impacts_s: &[f64]) -> Vec<&'a [f32]> {
     let at = |time_s: f64| samples_in(time_s, sample_rate_hz).min(samples.len());
-    let (first, last) = (impacts_s.first().copied().unwrap_or(0.0), impacts_s.last().copied().unwrap_or(0.0));
+    let (first, last) = (
+        impacts_s.first().copied().unwrap_or(0.0),
+        impacts_s.last().copied().unwrap_or(0.0),
+    );
     let region = &samples[at(first - AROUND_S)..at(last + AROUND_S)];
     let frame = samples_in(FRAME_S, sample_rate_hz).max(2 * ORDER);
     let energy = |f: &[f32]| f.iter().map(|x| x * x).sum::<f32>();
     // Digital silence says nothing of the noise.
-    let mut frames: Vec<(f32, &[f32])> =
-        region.chunks_exact(frame).map(|f| (energy(f), f)).filter(|(e, _)| *e > 0.0).collect();
+    let mut frames: Vec<(f32, &[f32])> = region
+        .chunks_exact(frame)
+        .map(|f| (energy(f), f))
+        .filter(|(e, _)| *e > 0.0)
+        .collect();
     frames.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let keep = samples_in(QUIET_SHARE, real(frames.len())).max(4).min(frames.len());
+    let keep = samples_in(QUIET_SHARE, real(frames.len()))
+        .max(4)
+        .min(frames.len());
     frames.truncate(keep);
     frames.into_iter().map(|(_, f)| f).collect()
 }
@@ -112,12 +131,20 @@ mod tests {
         let whitener = Whitener::learn(&noise, 48_000.0, &[1.0]);
         let white = whitener.apply(&noise, 1_000, 90_000).unwrap();
         let mean_product = |lag: usize| {
-            white.iter().zip(&white[lag..]).map(|(a, b)| a * b).sum::<f64>() / real(white.len())
+            white
+                .iter()
+                .zip(&white[lag..])
+                .map(|(a, b)| a * b)
+                .sum::<f64>()
+                / real(white.len())
         };
         // The quietest fifth of the frames holds a little less than the mean power.
         assert!((0.8..1.6).contains(&mean_product(0)), "{}", mean_product(0));
         for lag in 1..10 {
-            assert!((mean_product(lag) / mean_product(0)).abs() < 0.05, "lag {lag}");
+            assert!(
+                (mean_product(lag) / mean_product(0)).abs() < 0.05,
+                "lag {lag}"
+            );
         }
     }
 }
