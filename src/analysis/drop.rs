@@ -6,7 +6,7 @@ use crate::detect::refine::refine;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
-use crate::report::{Drop, Estimates, Impact, Model, Restitution, Scatter, Status};
+use crate::report::{Drop, Estimates, Impact, Model, Restitution, Scatter, Status, Warning};
 use crate::sequence::{Chain, Link};
 
 /// Times the impacts of a chain and fits them.
@@ -20,6 +20,13 @@ pub(super) fn measure(
     let ratio = flights.ratio();
     let mut warnings = warnings::of_chain(stretch, &timed, chain);
     let (mut total, mut first_rebound) = (None, None);
+    let cut = ratio.and_then(|r| {
+        warnings::of_end(
+            stretch,
+            &timed,
+            total_time::left_s(&timed, &flights, r.value),
+        )
+    });
     if let (Some(ratio), Some(height_m)) = (ratio, settings.height_m) {
         let input = total_time::Drop {
             impacts: &timed,
@@ -29,12 +36,18 @@ pub(super) fn measure(
             gravity_m_per_s2: settings.gravity_m_per_s2,
         };
         let solved = total_time::solve(&input)?;
-        if !matches!(solved, Err(Missing::FirstImpact { .. })) {
+        if !matches!(
+            solved,
+            Err(Missing::FirstImpact { .. } | Missing::Height { .. })
+        ) {
             first_rebound = total_time::first_rebound(&input);
         }
-        warnings.extend(warnings::of_total_time(&solved, stretch, &timed));
-        total = solved.ok();
+        // That the recording ends early says it all.
+        let unsaid = |w: &Warning| cut.is_none() || w.code != "ended_early";
+        warnings.extend(warnings::of_total_time(&solved).filter(unsaid));
+        total = solved.ok().filter(|_| cut.is_none());
     }
+    warnings.extend(cut);
     Ok(Drop {
         bounces: chain.heard(),
         observed_time_s: timed.last().map_or(0.0, |i| i.time_s)

@@ -85,23 +85,8 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
         let message = format!("{clipped} impacts reach full scale: lower the recording level");
         warnings.push(Warning::new("clipped", message));
     }
-    let (first_s, last_s) = (
-        timed.first().map_or(0.0, |t| t.time_s),
-        timed.last().map_or(0.0, |t| t.time_s),
-    );
-    let lone = |pair: &[Timed]| pair[1].time_s - pair[0].time_s;
-    if timed
-        .windows(2)
-        .last()
-        .is_some_and(|pair| last_s + lone(pair) > stretch.end_s())
-    {
-        let message = "the recording ends before the ball rests: record for longer, or lift --end";
-        warnings.push(Warning::new("cut_end", message));
-    }
-    if timed
-        .windows(2)
-        .next()
-        .is_some_and(|pair| first_s - lone(pair) < stretch.start_s)
+    if let (Some(first), Some(second)) = (timed.first(), timed.get(1))
+        && 2.0 * first.time_s - second.time_s < stretch.start_s
     {
         let message = "the recording starts less than a flight before the first impact heard: earlier ones may be \
                        missing. Start recording before the drop";
@@ -115,13 +100,18 @@ fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
     sound.iter().filter(|x| x.abs() >= CLIPPED).count() >= CLIPPED_SAMPLES
 }
 
+/// The end of a drop: `left_s` is how long the ball would have gone on after its last impact.
+pub(super) fn of_end(stretch: &Stretch<'_>, timed: &[Timed], left_s: f64) -> Option<Warning> {
+    let recorded_s = stretch.end_s() - timed.last()?.time_s;
+    let message = format!(
+        "the recording ends before the ball rests: it would go on for about {left_s:.2} s, of which {recorded_s:.2} s \
+         were recorded. There is no T_total, and equation (25) does not apply. Record for longer"
+    );
+    (left_s > recorded_s).then(|| Warning::new("cut_end", message))
+}
+
 /// Why there is no total time, or no root.
-pub(super) fn of_total_time(
-    solved: &Result<TotalTime, Missing>,
-    stretch: &Stretch<'_>,
-    timed: &[Timed],
-) -> Option<Warning> {
-    let last_s = timed.last().map_or(0.0, |t| t.time_s);
+pub(super) fn of_total_time(solved: &Result<TotalTime, Missing>) -> Option<Warning> {
     match *solved {
         Err(Missing::FirstImpact {
             first_flight_s,
@@ -141,13 +131,6 @@ pub(super) fn of_total_time(
             format!(
                 "the first flight is {first_flight_s:.3} s, but from this height it cannot exceed {longest_s:.3} s: \
                  check --height; equation (25) does not apply"
-            ),
-        )),
-        Err(Missing::End { left_s }) if last_s + left_s > stretch.end_s() => Some(Warning::new(
-            "cut_before_rest",
-            format!(
-                "the recording ends before the ball rests: it would go on for about {left_s:.2} s after the last \
-                 impact, so there is no T_total and equation (25) does not apply. Record for longer"
             ),
         )),
         Err(Missing::End { left_s }) => Some(Warning::new(

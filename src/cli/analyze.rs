@@ -26,10 +26,10 @@ pub(super) struct Arguments {
     /// A WAV file, or - for standard input
     file: PathBuf,
     /// Height of release, from the ball's lowest point to the surface: 30.5cm, 12in, 0.305
-    #[arg(long, value_parser = length)]
+    #[arg(long, value_parser = length, allow_negative_numbers = true)]
     height: Option<f64>,
     /// Gravity in m/s²
-    #[arg(long, value_parser = acceleration, default_value = "9.81")]
+    #[arg(long, value_parser = acceleration, default_value = "9.81", allow_negative_numbers = true)]
     gravity: f64,
     /// Which channel to listen to: best (the one in which impacts stand out most) or its number from 1
     #[arg(long, default_value = "best", value_name = "best|N")]

@@ -1,10 +1,11 @@
 //! Where something struck: candidate impacts from samples and a rate. Knows nothing of balls.
 //!
-//! [`filterbank`] splits a stretch of the recording into octaves, [`rise`] measures how surely the energy went up at
+//! [`quiet`] passes over stretches in which nothing happens. [`filterbank`] splits a stretch of the recording into octaves, [`rise`] measures how surely the energy went up at
 //! each moment, [`peaks`] picks the moments. [`refine`] then times chosen impacts below one sample.
 
 pub mod filterbank;
 pub mod peaks;
+pub mod quiet;
 pub mod refine;
 pub mod rise;
 
@@ -84,6 +85,10 @@ pub fn candidates(
         };
         let from = start.saturating_sub(margin);
         let to = (end + margin).min(samples.len());
+        if quiet::is_quiet(&samples[from..to], sample_rate_hz) {
+            start = end;
+            continue;
+        }
         let evidence = rise::Evidence::of(&bank, &samples[from..to]);
         let inside = (start - from) / hop..(end - from).div_ceil(hop);
         let separation = settings.separation_s / bank.hop_s();

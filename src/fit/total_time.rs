@@ -159,21 +159,17 @@ fn missing(drop: &Drop<'_>, series: &BounceSeries) -> Option<Missing> {
             });
         }
     }
-    let left_s = left_s(drop);
+    let left_s = left_s(drop.impacts, drop.flights, drop.restitution);
     let whole =
         series.first_fall_s() + drop.impacts.last()?.time_s - drop.impacts.first()?.time_s + left_s;
     (left_s > LARGEST_REST * whole).then_some(Missing::End { left_s })
 }
 
-/// How long the ball goes on after the last impact, at the same ratio for ever: `T·e/(1 − e)`.
+/// How long the ball goes on after the last impact, at the same ratio for ever: `T·e/(1 − e)` after a last flight T.
 #[must_use]
-pub fn left_s(drop: &Drop<'_>) -> f64 {
-    let last = drop
-        .impacts
-        .len()
-        .checked_sub(2)
-        .and_then(|i| drop.flights.after(i));
-    last.unwrap_or(0.0) * drop.restitution / (1.0 - drop.restitution).max(f64::EPSILON)
+pub fn left_s(impacts: &[Impact], flights: &Flights, restitution: f64) -> f64 {
+    let last = impacts.len().checked_sub(2).and_then(|i| flights.after(i));
+    last.unwrap_or(0.0) * restitution / (1.0 - restitution).max(f64::EPSILON)
 }
 
 /// Standard error of the total time: scatter, and the unheard end, of which anything may be missing.
@@ -182,7 +178,8 @@ fn error_s(drop: &Drop<'_>) -> f64 {
     let last = drop.impacts.last().map_or(0.0, |i| i.time_s);
     // A rebound stronger by a share makes all flights after it longer by that share.
     let moved: f64 = drop.impacts.iter().map(|i| (last - i.time_s).powi(2)).sum();
-    (scatter * moved.sqrt()).hypot(left_s(drop) / 3.0_f64.sqrt())
+    (scatter * moved.sqrt())
+        .hypot(left_s(drop.impacts, drop.flights, drop.restitution) / 3.0_f64.sqrt())
 }
 
 #[cfg(test)]

@@ -94,7 +94,7 @@ fn digits_for(std: f64) -> usize {
 fn table(out: &mut String, impacts: &[Impact]) {
     line(
         out,
-        "\n     #    time [s]  ± [ms]   level [dB]  flight [ms]   ratio  rebound [mm]",
+        "\n     #    time [s]  ± [µs]   level [dB]  flight [ms]   ratio  rebound [mm]",
     );
     for (i, impact) in impacts.iter().enumerate() {
         let cell = |value: Option<f64>, width: usize, decimals: usize| {
@@ -107,7 +107,7 @@ fn table(out: &mut String, impacts: &[Impact]) {
             "  {:4}  {:10.6}  {}  {}  {}  {}  {}  {}",
             i + 1,
             impact.time_s,
-            cell(impact.time_std_s.map(|s| 1e3 * s), 6, 4),
+            cell(impact.time_std_s.map(|s| 1e6 * s), 6, 1),
             cell(impact.level_db, 11, 1),
             cell(impact.interval_s.map(|t| 1e3 * t), 11, 3),
             cell(impact.ratio, 6, 4),

@@ -47,7 +47,9 @@ impl Explained {
     fn near(&self, strength: f64, bins: std::ops::RangeInclusive<usize>, start_s: f64) -> usize {
         let bin = |e: &Event| bin_of(e.time_s - start_s);
         let first = self.events.partition_point(|e| bin(e) < *bins.start());
-        let near = self.events[first..].iter().take_while(|e| bin(e) <= *bins.end());
+        let near = self.events[first..]
+            .iter()
+            .take_while(|e| bin(e) <= *bins.end());
         near.filter(|e| e.strength >= strength).count()
     }
 }
@@ -66,7 +68,12 @@ impl Clutter {
         for strengths in bins.iter_mut().chain([&mut all]) {
             strengths.sort_by(f64::total_cmp);
         }
-        Self { bins, all, start_s, duration_s }
+        Self {
+            bins,
+            all,
+            start_s,
+            duration_s,
+        }
     }
 
     /// Seconds from the first event to the last, at least one.
@@ -88,17 +95,25 @@ impl Clutter {
     pub fn rate_per_s(&self, event: &Event, explained: &Explained) -> f64 {
         let strength = event.strength;
         let centre = bin_of(event.time_s - self.start_s);
-        let (first, last) = (centre.saturating_sub(REACH), (centre + REACH).min(self.bins.len() - 1));
+        let (first, last) = (
+            centre.saturating_sub(REACH),
+            (centre + REACH).min(self.bins.len() - 1),
+        );
         // An event that is explained does not count anyhow; any other is not its own clutter.
         let itself = usize::from(!explained.events.contains(event));
         let known_near = itself + explained.near(strength, first..=last, self.start_s);
         let known = itself + at_least(&explained.strengths, strength);
-        let all_near: usize = self.bins[first..=last].iter().map(|bin| at_least(bin, strength)).sum();
+        let all_near: usize = self.bins[first..=last]
+            .iter()
+            .map(|bin| at_least(bin, strength))
+            .sum();
         let near = real(all_near.saturating_sub(known_near));
-        let unseen = UNSEEN * (-(strength - self.strongest(explained)).max(0.0) / self.tail(explained)).exp();
+        let unseen = UNSEEN
+            * (-(strength - self.strongest(explained)).max(0.0) / self.tail(explained)).exp();
         let others = real(at_least(&self.all, strength).saturating_sub(known));
         let whole = (others + unseen) / self.duration_s() + KNOCKS_PER_S;
-        let span_s = ((real(last + 1) * BIN_S).min(self.duration_s) - real(first) * BIN_S).max(BIN_S);
+        let span_s =
+            ((real(last + 1) * BIN_S).min(self.duration_s) - real(first) * BIN_S).max(BIN_S);
         (near + whole * WHOLE_S) / (span_s + WHOLE_S)
     }
 
@@ -106,14 +121,22 @@ impl Clutter {
     fn strongest(&self, explained: &Explained) -> f64 {
         let pairs = self.all.iter().rev().zip(explained.strengths.iter().rev());
         let known = pairs.take_while(|(a, e)| a <= e).count();
-        self.all.len().checked_sub(known + 1).map_or(0.0, |i| self.all[i])
+        self.all
+            .len()
+            .checked_sub(known + 1)
+            .map_or(0.0, |i| self.all[i])
     }
 
     /// θ of an exponential tail: between the 0.9 and the 0.99 quantile of the clutter it falls tenfold. What is
     /// explained is taken to be stronger than that.
     fn tail(&self, explained: &Explained) -> f64 {
         let last = self.all.len().saturating_sub(explained.strengths.len() + 1);
-        let at = |share: f64| self.all.get(crate::units::samples_in(share, real(last))).copied().unwrap_or(0.0);
+        let at = |share: f64| {
+            self.all
+                .get(crate::units::samples_in(share, real(last)))
+                .copied()
+                .unwrap_or(0.0)
+        };
         ((at(0.99) - at(0.9)) / std::f64::consts::LN_10).max(LEAST_TAIL)
     }
 }
@@ -145,11 +168,19 @@ mod tests {
             .collect();
         let clutter = Clutter::new(&events);
         let strong = clutter.rate_per_s(&events[500], &Explained::default());
-        let faint = Event { time_s: 10.0, jitter_s: 1e-4, strength: 0.0 };
+        let faint = Event {
+            time_s: 10.0,
+            jitter_s: 1e-4,
+            strength: 0.0,
+        };
         let weak = clutter.rate_per_s(&faint, &Explained::default());
         assert!((0.1..0.6).contains(&strong), "{strong}");
         assert!((weak - 50.0).abs() < 2.0, "{weak}");
-        let own: Vec<Event> = events.iter().copied().filter(|e| e.strength > 40.0).collect();
+        let own: Vec<Event> = events
+            .iter()
+            .copied()
+            .filter(|e| e.strength > 40.0)
+            .collect();
         let alone = clutter.rate_per_s(&events[500], &Explained::new(own));
         assert!(alone < 0.25 * strong, "{alone} {strong}");
     }

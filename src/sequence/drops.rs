@@ -37,7 +37,11 @@ pub struct Chain {
 
 impl Chain {
     fn new((steps, evidence): (Vec<Step>, f64)) -> Self {
-        Self { links: links(&steps), evidence, rejected: Vec::new() }
+        Self {
+            links: links(&steps),
+            evidence,
+            rejected: Vec::new(),
+        }
     }
 
     /// Indices of the events that are its impacts.
@@ -146,7 +150,10 @@ fn chains(scene: &Scene<'_>) -> Vec<Chain> {
     let mut known: Vec<Vec<usize>> = vec![Vec::new(); scene.events.len()];
     for seed in seeds(scene) {
         let [first, second, third] = seed.map(|i| &known[i]);
-        if first.iter().any(|chain| second.contains(chain) && third.contains(chain)) {
+        if first
+            .iter()
+            .any(|chain| second.contains(chain) && third.contains(chain))
+        {
             continue;
         }
         let chain = Chain::new(follow(scene, seed));

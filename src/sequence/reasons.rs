@@ -79,10 +79,14 @@ pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
     let echoes = echo_delays(scene, chain, |i| own.binary_search(&i).is_ok());
     let mut explained = own;
     for link in &chain.links {
-        explained.extend(scene.between(link.time_s, link.time_s + LONGEST_DELAY_S).filter(|&i| {
-            let delay = scene.events[i].time_s - link.time_s;
-            echoes.iter().any(|d| (delay - d).abs() < DELAY_TOLERANCE_S)
-        }));
+        explained.extend(
+            scene
+                .between(link.time_s, link.time_s + LONGEST_DELAY_S)
+                .filter(|&i| {
+                    let delay = scene.events[i].time_s - link.time_s;
+                    echoes.iter().any(|d| (delay - d).abs() < DELAY_TOLERANCE_S)
+                }),
+        );
     }
     explained.sort_unstable();
     explained.dedup();

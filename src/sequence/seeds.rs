@@ -24,7 +24,11 @@ type Promise = (f64, [usize; 3]);
 pub fn seeds(scene: &Scene<'_>) -> Vec<[usize; 3]> {
     let leaders: Vec<Leader> = leaders(scene.events)
         .into_iter()
-        .map(|event| Leader { event, time_s: scene.events[event].time_s, worth: -scene.ln_rate(event) })
+        .map(|event| Leader {
+            event,
+            time_s: scene.events[event].time_s,
+            worth: -scene.ln_rate(event),
+        })
         .collect();
     let mut found: Vec<Promise> = Vec::new();
     let mut second: Vec<Promise> = Vec::new();
@@ -72,7 +76,7 @@ fn leaders(events: &[Event]) -> Vec<usize> {
             .filter(|e| e.strength > event.strength)
             .take(LEADERS)
             .count();
-                if stronger < LEADERS && event.strength >= LEAST_STRENGTH {
+        if stronger < LEADERS && event.strength >= LEAST_STRENGTH {
             leaders.push(i);
         }
     }
@@ -97,7 +101,10 @@ fn triples_around(scene: &Scene<'_>, leaders: &[Leader], place: usize, found: &m
             let triple = [*first, second, *third];
             // Rare events and short flights say more: chance fills a long flight with anything.
             let worth: f64 = triple.iter().map(|l| l.worth).sum::<f64>() - flight.ln() - next.ln();
-            found.push((worth + neighbour(scene, leaders, triple), triple.map(|l| l.event)));
+            found.push((
+                worth + neighbour(scene, leaders, triple),
+                triple.map(|l| l.event),
+            ));
         }
     }
 }
@@ -110,13 +117,23 @@ fn neighbour(scene: &Scene<'_>, leaders: &[Leader], triple: [Leader; 3]) -> f64 
     let [t0, t1, t2] = triple.map(|l| l.time_s);
     let mut law = FlightLaw::prior(scene.settings);
     let jitter_s = scene.jitter_s(triple.map(|l| l.event));
-    law.learn(t1 - t0, t2 - t1, Doubt { unheard: 0, jitter_s });
+    law.learn(
+        t1 - t0,
+        t2 - t1,
+        Doubt {
+            unheard: 0,
+            jitter_s,
+        },
+    );
     let (next, previous) = (law.next_s(t2 - t1), law.previous_s(t1 - t0));
     let worth = |centre_s: f64, flight_s: f64| {
         let reach = NEIGHBOUR_REACH * flight_s;
         let from = leaders.partition_point(|l| l.time_s < centre_s - reach);
-        let near = leaders[from..].iter().take_while(|l| l.time_s <= centre_s + reach);
-        near.map(|l| l.worth - (2.0 * reach).ln()).fold(0.0, f64::max)
+        let near = leaders[from..]
+            .iter()
+            .take_while(|l| l.time_s <= centre_s + reach);
+        near.map(|l| l.worth - (2.0 * reach).ln())
+            .fold(0.0, f64::max)
     };
     worth(t2 + next, next).max(worth(t0 - previous, previous))
 }

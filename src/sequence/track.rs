@@ -35,7 +35,7 @@ pub struct Scene<'a> {
     pub events: &'a [Event],
     /// What is known of balls.
     pub settings: &'a Settings,
-        clutter: &'a Clutter,
+    clutter: &'a Clutter,
     explained: Explained,
     /// Rates that were asked for: hypotheses meet at the same events again and again.
     ln_rates: RefCell<HashMap<usize, f64>>,
@@ -45,19 +45,33 @@ impl<'a> Scene<'a> {
     /// All events, none of them explained.
     #[must_use]
     pub fn new(events: &'a [Event], clutter: &'a Clutter, settings: &'a Settings) -> Self {
-        Self { events, settings, clutter, explained: Explained::default(), ln_rates: RefCell::default() }
+        Self {
+            events,
+            settings,
+            clutter,
+            explained: Explained::default(),
+            ln_rates: RefCell::default(),
+        }
     }
 
     /// The same events, some of them no longer clutter: indices in order.
     #[must_use]
     pub fn without(&self, explained: &[usize]) -> Self {
         let explained = Explained::new(explained.iter().map(|&i| self.events[i]).collect());
-        Self { explained, ln_rates: RefCell::default(), ..*self }
+        Self {
+            explained,
+            ln_rates: RefCell::default(),
+            ..*self
+        }
     }
 
     /// ln of the rate of clutter at least as strong as this event, per second.
     pub(super) fn ln_rate(&self, event: usize) -> f64 {
-        let rate = || self.clutter.rate_per_s(&self.events[event], &self.explained).ln();
+        let rate = || {
+            self.clutter
+                .rate_per_s(&self.events[event], &self.explained)
+                .ln()
+        };
         *self.ln_rates.borrow_mut().entry(event).or_insert_with(rate)
     }
 

@@ -228,7 +228,7 @@ fn rubber() -> DropScene {
         drag: false,
         restitution: 0.75,
         bounce_scatter: 0.006,
-        contact_time_s: 2.5e-3,
+        contact_time_s: 1.5e-3,
         modes: vec![
             mode(320.0, 12e-3, 1.0),
             mode(780.0, 7e-3, 0.7),
@@ -238,7 +238,7 @@ fn rubber() -> DropScene {
     }
 }
 
-/// A ball that hardly bounces: five impacts.
+/// A ball that hardly bounces: five impacts can be told apart.
 fn dead() -> DropScene {
     DropScene {
         height_m: 0.1,
@@ -248,7 +248,7 @@ fn dead() -> DropScene {
         drag: false,
         restitution: 0.40,
         bounce_scatter: 0.005,
-        contact_time_s: 2.5e-3,
+        contact_time_s: 1e-3,
         modes: vec![
             mode(380.0, 6e-3, 1.0),
             mode(1_100.0, 4e-3, 0.7),

@@ -147,10 +147,12 @@ fn interpolated(values: &[f64], position: f64) -> f64 {
 /// `length` samples from a position between samples on.
 fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
     let (first, kernel) = kernel(position);
-    (0..length).map(|i| weighted(samples, first.saturating_add_unsigned(i), &kernel)).collect()
+    (0..length)
+        .map(|i| weighted(samples, first.saturating_add_unsigned(i), &kernel))
+        .collect()
 }
 
-/// A sinc under a Hann window around a position, and the index that its first weight belongs to.
+/// A sinc under the window (1 − (x/K)²)² around a position, and the index that its first weight belongs to.
 ///
 /// `sin(π(x − i))` changes only its sign from one sample to the next.
 fn kernel(position: f64) -> (isize, [f64; 2 * KERNEL]) {
@@ -158,7 +160,10 @@ fn kernel(position: f64) -> (isize, [f64; 2 * KERNEL]) {
     let whole = position.floor();
     let fraction = position - whole;
     let sine = (PI * fraction).sin();
-    #[expect(clippy::cast_possible_truncation, reason = "positions lie within a window of samples")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "positions lie within a window of samples"
+    )]
     let first = whole as isize + 1 - KERNEL.cast_signed();
     let weight = |i: usize| {
         let x = fraction + real(KERNEL) - 1.0 - real(i);
@@ -166,8 +171,13 @@ fn kernel(position: f64) -> (isize, [f64; 2 * KERNEL]) {
             return 1.0;
         }
         // x = fraction + (KERNEL − 1 − i): the sine of the whole part is its parity.
-        let sign = if (KERNEL - 1).abs_diff(i).is_multiple_of(2) { 1.0 } else { -1.0 };
-        sign * sine / (PI * x) * (0.5 + 0.5 * (PI * x / real(KERNEL)).cos())
+        let sign = if (KERNEL - 1).abs_diff(i).is_multiple_of(2) {
+            1.0
+        } else {
+            -1.0
+        };
+        let share = 1.0 - (x / real(KERNEL)).powi(2);
+        sign * sine / (PI * x) * share * share
     };
     (first, std::array::from_fn(weight))
 }
@@ -175,7 +185,12 @@ fn kernel(position: f64) -> (isize, [f64; 2 * KERNEL]) {
 fn weighted(values: &[f64], first: isize, kernel: &[f64]) -> f64 {
     let skip = usize::try_from(-first).unwrap_or(0);
     let start = usize::try_from(first).unwrap_or(0).min(values.len());
-    kernel.iter().skip(skip).zip(&values[start..]).map(|(k, v)| k * v).sum()
+    kernel
+        .iter()
+        .skip(skip)
+        .zip(&values[start..])
+        .map(|(k, v)| k * v)
+        .sum()
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -241,10 +256,15 @@ mod tests {
         let wave = |x: f64| (0.4 * x).sin() + 0.3 * (1.1 * x).cos();
         let samples: Vec<f64> = (0..100).map(|i| wave(real(i))).collect();
         for position in [30.0, 41.25, 50.5, 59.999_999, 60.0] {
-            assert!((interpolated(&samples, position) - wave(position)).abs() < 2e-3, "{position}");
+            assert!(
+                (interpolated(&samples, position) - wave(position)).abs() < 2e-3,
+                "{position}"
+            );
         }
         assert!((interpolated(&samples, 30.0) - samples[30]).abs() < 1e-12);
-        assert!(interpolated(&samples, -3.0).is_finite() && interpolated(&samples, 104.5).is_finite());
+        assert!(
+            interpolated(&samples, -3.0).is_finite() && interpolated(&samples, 104.5).is_finite()
+        );
     }
 
     #[test]

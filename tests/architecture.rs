@@ -1,0 +1,135 @@
+//! Dependencies point one way, and the core touches no files, threads or terminal.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a failing test should panic"
+)]
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis ← cli.
+const FORBIDDEN: [(&str, &[&str]); 9] = [
+    (
+        "physics",
+        &[
+            "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+        ],
+    ),
+    (
+        "detect",
+        &[
+            "physics", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+        ],
+    ),
+    (
+        "sequence",
+        &["detect", "fit", "wav", "report", "analysis", "synth", "cli"],
+    ),
+    (
+        "fit",
+        &[
+            "detect", "sequence", "wav", "report", "analysis", "synth", "cli",
+        ],
+    ),
+    (
+        "report",
+        &["physics", "sequence", "wav", "analysis", "synth", "cli"],
+    ),
+    (
+        "wav",
+        &[
+            "physics", "detect", "sequence", "fit", "report", "analysis", "synth", "cli",
+        ],
+    ),
+    ("analysis", &["wav", "synth", "cli"]),
+    (
+        "synth",
+        &[
+            "detect", "sequence", "fit", "wav", "report", "analysis", "cli",
+        ],
+    ),
+    (
+        "random.rs",
+        &[
+            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+        ],
+    ),
+];
+
+/// Folders that must build without a file system, threads or a terminal.
+const CORE: [&str; 7] = [
+    "physics", "detect", "sequence", "fit", "report", "analysis", "synth",
+];
+const OUTSIDE: [&str; 6] = [
+    "std::fs",
+    "std::thread",
+    "std::io",
+    "std::env",
+    "println!",
+    "print!(",
+];
+
+fn sources(under: &Path) -> Vec<PathBuf> {
+    if under.is_file() {
+        return vec![under.to_path_buf()];
+    }
+    let entries = fs::read_dir(under).unwrap_or_else(|e| panic!("{}: {e}", under.display()));
+    entries
+        .flat_map(|entry| sources(&entry.unwrap().path()))
+        .filter(|p| p.extension().is_some_and(|e| e == "rs"))
+        .collect()
+}
+
+/// The lines of code of a file: not its comments, and not its tests, which may use anything.
+fn code(path: &Path) -> String {
+    let text = fs::read_to_string(path).unwrap();
+    let product = text.split("#[cfg(test)]").next().unwrap_or_default();
+    product
+        .lines()
+        .filter(|line| !line.trim_start().starts_with("//"))
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+#[test]
+fn dependencies_point_one_way() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut looked_at = 0;
+    for (layer, forbidden) in FORBIDDEN {
+        for path in sources(&src.join(layer)) {
+            let code = code(&path);
+            looked_at += 1;
+            for other in forbidden {
+                let names = [format!("crate::{other}"), format!("bounce_audio::{other}")];
+                let found = names.iter().find(|name| code.contains(name.as_str()));
+                assert!(
+                    found.is_none(),
+                    "{} names {}",
+                    path.display(),
+                    found.unwrap()
+                );
+                // `use crate::{…}` would hide the name of the module from the search above.
+                assert!(
+                    !code.contains("use crate::{"),
+                    "{}: one path per `use`",
+                    path.display()
+                );
+            }
+        }
+    }
+    assert!(looked_at > 20, "only {looked_at} files were looked at");
+}
+
+#[test]
+fn the_core_touches_nothing_outside() {
+    let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    for layer in CORE {
+        for path in sources(&src.join(layer)) {
+            let code = code(&path);
+            for outside in OUTSIDE {
+                assert!(!code.contains(outside), "{} uses {outside}", path.display());
+            }
+        }
+    }
+}

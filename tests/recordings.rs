@@ -1,0 +1,132 @@
+//! Real recordings and what is known of them. They are not part of the project: this runs with
+//! `cargo test --features recordings` where `BOUNCE_AUDIO_RECORDINGS` names their folder.
+#![cfg(feature = "recordings")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::expect_used,
+    reason = "a failing test should panic"
+)]
+
+use std::path::PathBuf;
+
+use bounce_audio::analysis::{Settings, analyze_clearest};
+use bounce_audio::report::{Analysis, Drop, Status};
+use bounce_audio::wav;
+
+fn listen(name: &str, settings: &Settings) -> Analysis {
+    let folder = std::env::var_os("BOUNCE_AUDIO_RECORDINGS")
+        .expect("BOUNCE_AUDIO_RECORDINGS names their folder");
+    let recording = wav::read_file(&PathBuf::from(folder).join(name)).unwrap();
+    analyze_clearest(
+        &recording.channels,
+        f64::from(recording.sample_rate_hz),
+        settings,
+    )
+    .unwrap()
+    .1
+}
+
+fn one_drop(name: &str) -> Drop {
+    let mut analysis = listen(name, &Settings::default());
+    assert_eq!(analysis.drops.len(), 1, "{name}");
+    analysis.drops.remove(0)
+}
+
+fn heard_s(drop: &Drop) -> Vec<f64> {
+    drop.impacts
+        .iter()
+        .filter(|i| i.status != Status::Inferred)
+        .map(|i| i.time_s)
+        .collect()
+}
+
+fn check_flights_shrink(drop: &Drop) {
+    let flights: Vec<f64> = drop
+        .impacts
+        .windows(2)
+        .map(|w| w[1].time_s - w[0].time_s)
+        .collect();
+    for pair in flights.windows(2) {
+        assert!(
+            pair[1] < 1.25 * pair[0],
+            "a flight of {} s after one of {} s",
+            pair[1],
+            pair[0]
+        );
+    }
+}
+
+/// Impacts read by hand on a grid of 1 ms, in ms; they mark a peak, about 2 ms after the onset.
+const ERICKSON_MS: [f64; 30] = [
+    129.0, 315.0, 492.0, 658.0, 815.0, 963.0, 1104.0, 1234.0, 1358.0, 1475.0, 1586.0, 1693.0,
+    1791.0, 1886.0, 1975.0, 2060.0, 2138.0, 2212.0, 2282.0, 2349.0, 2412.0, 2472.0, 2527.0, 2581.0,
+    2631.0, 2680.0, 2727.0, 2771.0, 2810.0, 2849.0,
+];
+
+#[test]
+fn ericksons_ball_is_followed_past_what_was_read_by_hand() {
+    let drop = one_drop("erickson-pingpong.wav");
+    let times = heard_s(&drop);
+    assert!(times.len() >= 54, "{} impacts", times.len());
+    check_flights_shrink(&drop);
+    let nearest = |t: f64| {
+        times
+            .iter()
+            .map(|x| t - x)
+            .min_by(|a, b| a.abs().total_cmp(&b.abs()))
+            .unwrap()
+    };
+    let mut offsets: Vec<f64> = ERICKSON_MS.iter().map(|ms| nearest(1e-3 * ms)).collect();
+    offsets.sort_by(f64::total_cmp);
+    let common = offsets[offsets.len() / 2];
+    assert!(
+        common.abs() < 5e-3 && offsets.iter().all(|o| (o - common).abs() < 5e-3),
+        "{offsets:?}"
+    );
+    let e = drop.estimates.flight_ratio.unwrap().value;
+    assert!((0.9435..0.9485).contains(&e), "{e}");
+}
+
+#[test]
+fn the_ball_from_90_cm_is_found_between_the_handling_noises() {
+    let drop = one_drop("pfe-0.9m.wav");
+    let times = heard_s(&drop);
+    assert!(
+        (50..=54).contains(&drop.impacts.len()),
+        "{} impacts",
+        drop.impacts.len()
+    );
+    assert!(
+        (times[0] - 3.137).abs() < 3e-3 && (times[times.len() - 1] - 11.1).abs() < 0.03,
+        "{times:?}"
+    );
+    check_flights_shrink(&drop);
+    let e = drop.estimates.flight_ratio.unwrap().value;
+    assert!((0.918..0.932).contains(&e), "{e}");
+}
+
+#[test]
+fn the_ball_from_50_cm_is_cut_off_and_that_is_said() {
+    let mut settings = Settings::default();
+    settings.height_m = Some(0.5);
+    let analysis = listen("pfe-0.5m.wav", &settings);
+    assert_eq!(analysis.drops.len(), 1);
+    let drop = &analysis.drops[0];
+    assert!(
+        (13..=15).contains(&drop.bounces),
+        "{} impacts",
+        drop.bounces
+    );
+    assert!((drop.impacts[0].time_s - 4.469).abs() < 3e-3);
+    assert!(
+        drop.warnings
+            .iter()
+            .any(|w| w.message.contains("ends before the ball rests")),
+        "{:?}",
+        drop.warnings
+    );
+    assert!(drop.total_time_s.is_none() && drop.estimates.eq25.is_none());
+    let first = drop.estimates.first_rebound.unwrap().value;
+    assert!((first - 0.892).abs() < 0.003, "{first}");
+}

@@ -1,0 +1,232 @@
+//! Recordings made from the model, analyzed: what is known to be there must be found, and nothing else.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    clippy::expect_used,
+    reason = "a failing test should panic"
+)]
+
+use bounce_audio::analysis::{Settings, analyze};
+use bounce_audio::report::{Analysis, Status};
+use bounce_audio::synth::scene::{Scene, preset};
+use bounce_audio::synth::truth::DropTruth;
+use bounce_audio::synth::{Synthetic, render};
+
+const SEEDS: [u64; 3] = [1, 2, 3];
+
+fn listen(made: &Synthetic) -> Analysis {
+    analyze(
+        &made.samples,
+        f64::from(made.truth.sample_rate_hz),
+        &Settings::default(),
+    )
+    .unwrap()
+}
+
+/// What was found of a drop, one to one within 2 ms after one common offset.
+struct Found {
+    missed: Vec<usize>,
+    spurious: usize,
+    errors_s: Vec<f64>,
+    restitution: f64,
+}
+
+fn compare(analysis: &Analysis, truth: &DropTruth) -> Found {
+    assert_eq!(analysis.drops.len(), 1, "{:?}", analysis.warnings);
+    let drop = &analysis.drops[0];
+    let times: Vec<f64> = drop
+        .impacts
+        .iter()
+        .filter(|i| i.status != Status::Inferred)
+        .map(|i| i.time_s)
+        .collect();
+    let nearest = |t: f64| {
+        truth
+            .impacts_s
+            .iter()
+            .copied()
+            .min_by(|a, b| (a - t).abs().total_cmp(&(b - t).abs()))
+            .unwrap()
+    };
+    let mut offsets: Vec<f64> = times.iter().map(|&t| t - nearest(t)).collect();
+    offsets.sort_by(f64::total_cmp);
+    let offset = offsets[offsets.len() / 2];
+    let mut taken = vec![false; times.len()];
+    let mut found = Found {
+        missed: Vec::new(),
+        spurious: 0,
+        errors_s: Vec::new(),
+        restitution: drop.restitution.as_ref().unwrap().estimate.value,
+    };
+    for (i, &t) in truth.impacts_s.iter().enumerate() {
+        match (0..times.len()).find(|&j| !taken[j] && (times[j] - offset - t).abs() < 2e-3) {
+            Some(j) => {
+                taken[j] = true;
+                found.errors_s.push(times[j] - offset - t);
+            }
+            None => found.missed.push(i),
+        }
+    }
+    found.spurious = taken.iter().filter(|&&t| !t).count();
+    found
+}
+
+fn median_error_s(found: &Found) -> f64 {
+    let mut sizes: Vec<f64> = found.errors_s.iter().map(|e| e.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    sizes[sizes.len() / 2]
+}
+
+/// Impacts that must be found: audible, and not shorter after the one before than this.
+fn expected(truth: &DropTruth, shortest_flight_s: f64) -> usize {
+    let apart =
+        |i: usize| i == 0 || truth.impacts_s[i] - truth.impacts_s[i - 1] >= shortest_flight_s;
+    (0..truth.impacts_s.len())
+        .take_while(|&i| truth.audible[i] && apart(i))
+        .count()
+}
+
+fn with_noise(mut scene: Scene, signal_to_noise_db: f64) -> Scene {
+    scene.noise.white_db = scene.peak_db - signal_to_noise_db;
+    scene
+}
+
+/// Name, shortest flight that must be followed, and how far off e and the median time may be.
+const DROPS: [(&str, f64, f64, f64); 4] = [
+    // A click shorter than its flights is followed to the end of what is audible.
+    ("steel", 7e-3, 0.003, 1e-6),
+    // The echo 10 ms after each impact hides those that are nearer.
+    ("pingpong", 18e-3, 0.004, 2e-6),
+    // A thud rings for 12 ms.
+    ("rubber", 45e-3, 0.012, 50e-6),
+    ("dead", 17e-3, 0.03, 0.5e-3),
+];
+
+#[test]
+fn drops_are_found_whole() {
+    for (name, shortest, e_error, time_error) in DROPS {
+        for seed in SEEDS {
+            let made = render(&preset(name).unwrap(), seed).unwrap();
+            let truth = &made.truth.drops[0];
+            let found = compare(&listen(&made), truth);
+            let expected = expected(truth, shortest);
+            assert!(expected >= 4, "{name} {seed}: only {expected} expected");
+            let missed: Vec<&usize> = found.missed.iter().filter(|&&i| i < expected).collect();
+            assert!(
+                missed.is_empty(),
+                "{name} {seed}: missed {missed:?} of {expected}"
+            );
+            assert!(
+                found.spurious <= 1,
+                "{name} {seed}: {} spurious",
+                found.spurious
+            );
+            let off = (found.restitution - truth.restitution).abs();
+            assert!(
+                off < e_error,
+                "{name} {seed}: e {} for {}",
+                found.restitution,
+                truth.restitution
+            );
+            assert!(
+                median_error_s(&found) < time_error,
+                "{name} {seed}: {} s",
+                median_error_s(&found)
+            );
+        }
+    }
+}
+
+#[test]
+fn drops_are_found_at_20_db_of_signal_to_noise() {
+    // The noise hides the late impacts; what is left must still be the right sequence.
+    for (name, fewest) in [("steel", 10), ("pingpong", 16), ("rubber", 5)] {
+        for seed in SEEDS {
+            let made = render(&with_noise(preset(name).unwrap(), 20.0), seed).unwrap();
+            let truth = &made.truth.drops[0];
+            let found = compare(&listen(&made), truth);
+            assert!(
+                found.errors_s.len() >= fewest,
+                "{name} {seed}: {} found",
+                found.errors_s.len()
+            );
+            assert!(
+                found.spurious <= 2,
+                "{name} {seed}: {} spurious",
+                found.spurious
+            );
+            let off = (found.restitution - truth.restitution).abs();
+            assert!(
+                off < 0.02,
+                "{name} {seed}: e {} for {}",
+                found.restitution,
+                truth.restitution
+            );
+        }
+    }
+}
+
+#[test]
+fn where_no_ball_bounces_there_is_no_drop_and_a_reason() {
+    for name in ["silence", "noise", "tone", "babble"] {
+        for seed in SEEDS {
+            let analysis = listen(&render(&preset(name).unwrap(), seed).unwrap());
+            assert!(
+                analysis.drops.is_empty(),
+                "{name} {seed}: {} drops",
+                analysis.drops.len()
+            );
+            assert_eq!(analysis.warnings.len(), 1, "{name} {seed}");
+            assert!(
+                analysis.warnings[0].message.len() > 20,
+                "{name}: {}",
+                analysis.warnings[0].message
+            );
+        }
+    }
+}
+
+#[test]
+fn gain_and_polarity_move_no_impact_and_silence_before_moves_all_alike() {
+    let made = render(&preset("pingpong").unwrap(), 5).unwrap();
+    let rate = f64::from(made.truth.sample_rate_hz);
+    let times = |samples: &[f32]| -> Vec<f64> {
+        let analysis = analyze(samples, rate, &Settings::default()).unwrap();
+        analysis.drops[0].impacts.iter().map(|i| i.time_s).collect()
+    };
+    let plain = times(&made.samples);
+    let quiet: Vec<f32> = made.samples.iter().map(|x| -0.25 * x).collect();
+    for (a, b) in plain.iter().zip(times(&quiet)) {
+        assert!((a - b).abs() < 1e-7, "{a} {b}");
+    }
+    let mut late = vec![0.0; 44_100];
+    late.extend(&made.samples);
+    let late = times(&late);
+    // Digital silence is not the room's noise: it changes what is usual, and so how far the faint end is followed.
+    assert!(
+        plain.len().abs_diff(late.len()) <= 5,
+        "{} and {}",
+        plain.len(),
+        late.len()
+    );
+    for (a, b) in plain.iter().zip(late) {
+        assert!((a + 1.0 - b).abs() < 2e-6, "{a} {b}");
+    }
+}
+
+#[test]
+fn two_drops_are_two_drops() {
+    let mut scene = preset("steel").unwrap();
+    let mut second = scene.drops[0].clone();
+    second.first_impact_s += 4.0;
+    second.height_m = 0.25;
+    scene.drops.push(second);
+    scene.duration_s = 9.0;
+    let made = render(&scene, 1).unwrap();
+    let analysis = listen(&made);
+    let starts: Vec<f64> = analysis.drops.iter().map(|d| d.impacts[0].time_s).collect();
+    assert_eq!(starts.len(), 2, "{starts:?}");
+    for (start, truth) in starts.iter().zip(&made.truth.drops) {
+        assert!((start - truth.impacts_s[0]).abs() < 1e-3);
+    }
+}
