@@ -113,7 +113,7 @@ mod tests {
     fn a_thud_under_hiss_is_not_quiet() {
         let mut sound = noise_with(0.0);
         for (i, x) in sound[240_000..240_480].iter_mut().enumerate() {
-            *x += 0.012 * (std::f32::consts::PI * real(i) as f32 / 120.0).sin();
+            *x += 0.012 * (std::f32::consts::PI * narrow(i) / 120.0).sin();
         }
         assert!(!is_quiet(&sound, 48_000.0));
     }

@@ -60,7 +60,7 @@ impl Flights {
     /// ```text
     /// ln e = ln(T_b / T_a) / (b − a),   σ = s / √m
     /// ```
-    /// T_a and T_b are the first and last flight, s is the standard deviation of the m ratios about their mean. Where
+    /// `T_a` and `T_b` are the first and last flight, s is the standard deviation of the m ratios about their mean. Where
     /// each rebound scatters by itself this is the right error; where the times' jitter rules, neighbouring ratios
     /// err in opposite directions and it is too wide, never too narrow. A trend (drag) widens it too. One ratio has no
     /// error.

@@ -198,7 +198,7 @@ pub struct Ball {
     pub stiffness_n_per_m: Option<f64>,
     /// c.
     pub damping_n_s_per_m: Option<f64>,
-    /// ω_n.
+    /// `ω_n`.
     pub natural_frequency_rad_per_s: f64,
     /// ζ.
     pub damping_ratio: f64,

@@ -88,8 +88,8 @@ impl Clutter {
     /// ```text
     /// rate = (n + λ·W) / (t + W),   λ = (N + ½·min(1, exp(−(s − s_max)/θ))) / D + κ
     /// ```
-    /// n in the t seconds around it, N in all D seconds of the recording, W = [`WHOLE_S`]: the mean of a Poisson rate
-    /// whose prior is what the whole recording says. What is stronger than all clutter (by s − s_max) noise offers
+    /// n in the t seconds around it, N in all D seconds of the recording, W = 2 s: the mean of a Poisson rate
+    /// whose prior is what the whole recording says. What is stronger than all clutter (by s − `s_max`) noise offers
     /// the less often, as its tail falls with θ nats; what is left is κ, the rate of knocks.
     #[must_use]
     pub fn rate_per_s(&self, event: &Event, explained: &Explained) -> f64 {

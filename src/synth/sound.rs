@@ -67,12 +67,13 @@ impl Sound {
     /// Adds the sound of an impact at `onset_s` to samples, times `gain`; gives the sum of its squares.
     pub fn add(&self, samples: &mut [f64], rate: f64, onset_s: f64, gain: f64) -> f64 {
         let longest = self.modes.iter().map(|m| m.decay_s).fold(0.0, f64::max);
-        let end =
-            samples_in(onset_s + self.contact_time_s + DECAYS * longest, rate).min(samples.len());
+        let first = samples_in(onset_s, rate).min(samples.len());
+        let end = samples_in(onset_s + self.contact_time_s + DECAYS * longest, rate)
+            .clamp(first, samples.len());
         let mut energy = 0.0;
-        for i in samples_in(onset_s, rate)..end {
-            let pressure = gain * self.at(instant_s(i, rate) - onset_s);
-            samples[i] += pressure;
+        for (i, sample) in samples[first..end].iter_mut().enumerate() {
+            let pressure = gain * self.at(instant_s(first + i, rate) - onset_s);
+            *sample += pressure;
             energy += pressure * pressure;
         }
         energy

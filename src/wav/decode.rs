@@ -25,7 +25,7 @@ impl Frames {
         let frame_bytes = container.frame_bytes() as u64;
         match container.claimed_bytes {
             None => {
-                warnings.push("the header gives no length; read to the end of the file".to_owned())
+                warnings.push("the header gives no length; read to the end of the file".to_owned());
             }
             Some(claimed) if self.whole < claimed / frame_bytes => {
                 let missing = claimed / frame_bytes - self.whole;
@@ -79,6 +79,9 @@ pub fn for_each_block(
     Ok(frames)
 }
 
+/// Full scale of 32-bit integers.
+const FULL_SCALE_32: f32 = 65_536.0 * 32_768.0;
+
 /// Full scale of each integer width is a power of two, so scaling is exact; 32-bit integers are rounded to the
 /// 24 bits of an `f32`, which is below the noise of any microphone.
 #[expect(
@@ -102,14 +105,14 @@ fn decode(bytes: &[u8], container: &Container, samples: &mut Vec<f32>) {
                 .as_chunks::<3>()
                 .0
                 .iter()
-                .map(|&[a, b, c]| i32::from_le_bytes([0, a, b, c]) as f32 / 2_147_483_648.0),
+                .map(|&[a, b, c]| i32::from_le_bytes([0, a, b, c]) as f32 / FULL_SCALE_32),
         ),
         (SampleKind::Signed, _) => samples.extend(
             bytes
                 .as_chunks::<4>()
                 .0
                 .iter()
-                .map(|&b| i32::from_le_bytes(b) as f32 / 2_147_483_648.0),
+                .map(|&b| i32::from_le_bytes(b) as f32 / FULL_SCALE_32),
         ),
         (SampleKind::Float32, _) => samples.extend(
             bytes

@@ -1,8 +1,8 @@
 //! Times below one sample.
 //!
-//! The recording is first [whitened](whiten), so that hum and rumble do not matter and the noise left is white. Then
-//! each impact is timed by a [constant fraction](fraction) of its own rise, which does not walk with loudness, and by
-//! [correlation](correlation) with the mean of the others, which uses all of its sound.
+//! The recording is first [whitened](mod@whiten), so that hum and rumble do not matter and the noise left is white. Then
+//! each impact is timed by a [constant fraction](mod@fraction) of its own rise, which does not walk with loudness, and by
+//! [correlation](mod@correlation) with the mean of the others, which uses all of its sound.
 
 pub mod correlation;
 pub mod fraction;
