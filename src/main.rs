@@ -8,7 +8,7 @@ use bounce_audio::Error;
 use bounce_audio::cli::{Outcome, run};
 
 fn main() -> ExitCode {
-    match run().and_then(print) {
+    match run().and_then(|outcome| print(&outcome)) {
         Ok(code) => code,
         Err(error) => {
             eprintln!("bounce-audio: {error}");
@@ -17,7 +17,7 @@ fn main() -> ExitCode {
     }
 }
 
-fn print(outcome: Outcome) -> Result<ExitCode, Error> {
+fn print(outcome: &Outcome) -> Result<ExitCode, Error> {
     let mut stdout = std::io::stdout().lock();
     match stdout
         .write_all(outcome.output.as_bytes())
