@@ -317,7 +317,7 @@ fn synth_is_repeatable_to_the_byte_and_names_what_it_wrote() {
             &path.display().to_string(),
         ]);
         assert!(
-            text(&output.stdout).contains("22 impacts"),
+            text(&output.stdout).contains("impacts: 22"),
             "{}",
             text(&output.stdout)
         );

@@ -62,7 +62,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
     let inferred = chain.links.len() - heard;
     if inferred > 0 {
         let message = format!(
-            "{inferred} of {} impacts were not heard and are inferred from their neighbours",
+            "{inferred} of {} impacts not heard but inferred from their neighbours",
             timed.len()
         );
         warnings.push(Warning::new("inferred", message));
@@ -74,7 +74,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
         .count();
     if doubtful > 0 {
         let message =
-            format!("{doubtful} impacts are doubtful: noise offers sounds as strong nearby");
+            format!("{doubtful} of {heard} impacts doubtful: noise offers sounds as strong nearby");
         warnings.push(Warning::new("doubtful", message));
     }
     let clipped = timed

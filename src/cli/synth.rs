@@ -34,7 +34,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     fs::write(&truth_path, truth).map_err(|e| Error::from(e).in_file(&truth_path))?;
     let impacts: usize = made.truth.drops.iter().map(|d| d.impacts_s.len()).sum();
     let output = format!(
-        "{}: {:.1} s, {} drops, {impacts} impacts\n{}: their true times\n",
+        "{}: {:.1} s, drops: {}, impacts: {impacts}\n{}: their true times\n",
         arguments.output.display(),
         crate::units::real(made.samples.len()) / f64::from(made.truth.sample_rate_hz),
         made.truth.drops.len(),
