@@ -1,6 +1,7 @@
 //! The whole way from samples to drops: detect, sequence, refine, fit.
 
 mod drop;
+mod tail;
 mod warnings;
 
 use crate::Error;
@@ -180,11 +181,9 @@ fn explain(
         })
         .collect();
     let found = sequence::find(&events, &settings.sequence)?;
-    let drops: Vec<Drop> = found
-        .drops
-        .iter()
-        .map(|chain| drop::measure(stretch, chain, settings))
-        .collect::<Result<_, _>>()?;
+    let mut all = events.clone();
+    let chains = found.drops.into_iter().map(|chain| tail::follow(stretch, chain, &mut all, &settings.sequence));
+    let drops: Vec<Drop> = chains.map(|chain| drop::measure(stretch, &chain, settings)).collect::<Result<_, _>>()?;
     Ok(Analysis {
         rejected: found.rejected.iter().map(rejected).collect(),
         rejected_weak: found.weak,

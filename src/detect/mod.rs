@@ -4,6 +4,7 @@
 //! each moment, [`peaks`] picks the moments. [`refine`] then times chosen impacts below one sample.
 
 pub mod filterbank;
+pub mod matched;
 pub mod peaks;
 pub mod quiet;
 pub mod refine;

@@ -111,6 +111,29 @@ pub fn find(events: &[Event], settings: &Settings) -> Result<Found, Error> {
     Ok(reasons::explain(&scene, drops, &taken))
 }
 
+/// An event that is taken for a known impact is at most this far from it, in seconds.
+const SAME_IMPACT_S: f64 = 0.4e-3;
+
+/// Follows a known chain through other events, from the three neighbouring impacts among them that earn most.
+///
+/// None if no three neighbouring impacts have events.
+#[must_use]
+pub fn follow_again(events: &[Event], impacts_s: &[f64], settings: &Settings) -> Option<Chain> {
+    let clutter = Clutter::new(events);
+    let scene = Scene::new(events, &clutter, settings);
+    let known: Vec<Option<usize>> = impacts_s
+        .iter()
+        .map(|&t| {
+            let near = scene.between(t - SAME_IMPACT_S, t + SAME_IMPACT_S);
+            near.max_by(|&a, &b| events[a].strength.total_cmp(&events[b].strength))
+        })
+        .collect();
+    let seeds = known.windows(3).filter_map(|w| Some([w[0]?, w[1]?, w[2]?]));
+    let chains = seeds.map(|seed| Chain::new(follow(&scene, seed)));
+    let best = chains.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
+    Some(sharpen(&scene, best))
+}
+
 /// How often a chain is followed anew with what it taught.
 const SHARPENINGS: usize = 8;
 /// Follows a chain anew, with its own impacts and their echoes no longer counted as clutter.

@@ -10,7 +10,7 @@ pub mod reasons;
 pub mod seeds;
 pub mod track;
 
-pub use drops::{Chain, Found, Link, find};
+pub use drops::{Chain, Found, Link, find, follow_again};
 pub use reasons::{Reason, Rejected};
 
 use crate::Error;

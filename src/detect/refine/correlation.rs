@@ -1,6 +1,7 @@
 //! Correlation with the mean impact of the drop: all of the sound says when it came.
 
 use super::Window;
+use super::interpolate::{KERNEL, interpolated, shifted};
 use crate::units::{real, samples_in};
 
 /// Where an impact matches the mean of the others, in samples of its window.
@@ -19,8 +20,6 @@ const AFTER_S: f64 = 2.4e-3;
 const SEARCH_S: f64 = 0.35e-3;
 /// Rounds of averaging and matching; the times move less than a hundredth of a sample after the third.
 const ROUNDS: usize = 4;
-/// Half-width of the interpolating kernel in samples.
-const KERNEL: usize = 12;
 /// A match worse than this correlation coefficient is none.
 const WORST_MATCH: f64 = 0.25;
 /// Fewest impacts that have a mean worth matching.
@@ -138,61 +137,6 @@ fn maximum(values: &[f64], top: usize) -> (f64, f64) {
     (x, interpolated(values, x))
 }
 
-/// A band-limited sequence between its samples; zero outside.
-fn interpolated(values: &[f64], position: f64) -> f64 {
-    let (first, kernel) = kernel(position);
-    weighted(values, first, &kernel)
-}
-
-/// `length` samples from a position between samples on.
-fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
-    let (first, kernel) = kernel(position);
-    (0..length)
-        .map(|i| weighted(samples, first.saturating_add_unsigned(i), &kernel))
-        .collect()
-}
-
-/// A sinc under the window (1 − (x/K)²)² around a position, and the index that its first weight belongs to.
-///
-/// `sin(π(x − i))` changes only its sign from one sample to the next.
-fn kernel(position: f64) -> (isize, [f64; 2 * KERNEL]) {
-    use std::f64::consts::PI;
-    let whole = position.floor();
-    let fraction = position - whole;
-    let sine = (PI * fraction).sin();
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "positions lie within a window of samples"
-    )]
-    let first = whole as isize + 1 - KERNEL.cast_signed();
-    let weight = |i: usize| {
-        let x = fraction + real(KERNEL) - 1.0 - real(i);
-        if x.abs() < 1e-9 {
-            return 1.0;
-        }
-        // x = fraction + (KERNEL − 1 − i): the sine of the whole part is its parity.
-        let sign = if (KERNEL - 1).abs_diff(i).is_multiple_of(2) {
-            1.0
-        } else {
-            -1.0
-        };
-        let share = 1.0 - (x / real(KERNEL)).powi(2);
-        sign * sine / (PI * x) * share * share
-    };
-    (first, std::array::from_fn(weight))
-}
-
-fn weighted(values: &[f64], first: isize, kernel: &[f64]) -> f64 {
-    let skip = usize::try_from(-first).unwrap_or(0);
-    let start = usize::try_from(first).unwrap_or(0).min(values.len());
-    kernel
-        .iter()
-        .skip(skip)
-        .zip(&values[start..])
-        .map(|(k, v)| k * v)
-        .sum()
-}
-
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
@@ -248,22 +192,6 @@ mod tests {
         assert!(
             (0.5..2.0).contains(&(rms / stated)),
             "rms {rms}, stated {stated}"
-        );
-    }
-
-    #[test]
-    fn a_slow_wave_is_interpolated_exactly_and_samples_are_kept() {
-        let wave = |x: f64| (0.4 * x).sin() + 0.3 * (1.1 * x).cos();
-        let samples: Vec<f64> = (0..100).map(|i| wave(real(i))).collect();
-        for position in [30.0, 41.25, 50.5, 59.999_999, 60.0] {
-            assert!(
-                (interpolated(&samples, position) - wave(position)).abs() < 2e-3,
-                "{position}"
-            );
-        }
-        assert!((interpolated(&samples, 30.0) - samples[30]).abs() < 1e-12);
-        assert!(
-            interpolated(&samples, -3.0).is_finite() && interpolated(&samples, 104.5).is_finite()
         );
     }
 

@@ -6,6 +6,7 @@
 
 pub mod correlation;
 pub mod fraction;
+pub mod interpolate;
 pub mod whiten;
 
 use crate::units::{real, samples_in};

@@ -1,0 +1,85 @@
+//! The end of a drop, followed by the sound of its own impacts.
+//!
+//! The energy no longer rises where the last impact still rings. So once a chain is known, the late part of it is
+//! searched again for the sound of its impacts, and the chain is followed there anew by the same physics.
+
+use super::Stretch;
+use crate::detect::matched;
+use crate::detect::refine::{Timing, refine};
+use crate::sequence::{self, Chain, Event};
+
+/// Where flights are shorter than this, in seconds, the sound of one impact reaches into the next.
+const SHORT_FLIGHT_S: f64 = 0.06;
+/// Impacts before the short flights that are searched again too, so that the chain has something to start from.
+const LEAD: usize = 3;
+/// How far past the expected end is searched: twice the flights that are left at the ratio so far.
+const PAST_END: f64 = 2.0;
+/// Longest region that is searched, in seconds.
+const LONGEST_REGION_S: f64 = 4.0;
+/// A new impact replaces an old one that is nearer than this, in seconds.
+const SAME_S: f64 = 1e-3;
+
+/// The chain with its end followed by the sound of its impacts, if that finds more; new events are added to `events`.
+pub(super) fn follow(
+    stretch: &Stretch<'_>,
+    chain: Chain,
+    events: &mut Vec<Event>,
+    settings: &sequence::Settings,
+) -> Chain {
+    let Some((first, region_s)) = region(&chain, stretch.end_s()) else {
+        return chain;
+    };
+    let heard: Vec<f64> =
+        chain.links.iter().filter(|l| l.event.is_some()).map(|l| l.time_s - stretch.start_s).collect();
+    let onsets: Vec<f64> = refine(stretch.samples, stretch.sample_rate_hz, &heard, stretch.hop_s, Timing::Correlation)
+        .iter()
+        .map(|t| t.time_s)
+        .collect();
+    let inside_s = (region_s.0 - stretch.start_s, region_s.1 - stretch.start_s);
+    let Some(found) = matched::candidates(stretch.samples, stretch.sample_rate_hz, &onsets, inside_s) else {
+        return chain;
+    };
+    let late: Vec<Event> = found
+        .iter()
+        .map(|c| Event { time_s: stretch.start_s + c.time_s, jitter_s: c.jitter_s, strength: c.strength })
+        .collect();
+    let onsets: Vec<f64> = onsets.iter().map(|t| stretch.start_s + t).collect();
+    match sequence::follow_again(&late, &onsets, settings) {
+        Some(end) => joined(chain, first, end, late, events),
+        None => chain,
+    }
+}
+
+/// The first link of the late part, and the time from just before it to well past the end.
+fn region(chain: &Chain, recording_end_s: f64) -> Option<(usize, (f64, f64))> {
+    let flight = |i: usize| chain.links[i + 1].time_s - chain.links[i].time_s;
+    let flights = chain.links.len().checked_sub(1)?;
+    let short = (0..flights).find(|&i| flight(i) < SHORT_FLIGHT_S).unwrap_or(flights);
+    let first = short.min(flights.checked_sub(LEAD)?).saturating_sub(LEAD);
+    let last_s = chain.links[flights].time_s;
+    let ratio = (flight(flights - 1) / flight(first)).powf(1.0 / crate::units::real((flights - 1 - first).max(1)));
+    let left_s = flight(flights - 1) * ratio / (1.0 - ratio).max(0.01);
+    let start_s = chain.links[first].time_s - 0.2 * flight(first);
+    let end_s = (last_s + PAST_END * left_s + SHORT_FLIGHT_S).min(recording_end_s).min(start_s + LONGEST_REGION_S);
+    Some((first, (start_s, end_s)))
+}
+
+/// The early part of the old chain and the new late part, if more was heard that way.
+fn joined(chain: Chain, first: usize, end: Chain, late: Vec<Event>, events: &mut Vec<Event>) -> Chain {
+    let Some(begin_s) = end.links.first().map(|l| l.time_s) else {
+        return chain;
+    };
+    let early = chain.links.iter().take_while(|l| l.time_s < begin_s - SAME_S).copied();
+    let offset = events.len();
+    let new = end.links.iter().map(|l| sequence::Link { event: l.event.map(|i| offset + i), ..*l });
+    let links: Vec<sequence::Link> = early.chain(new).collect();
+    let heard = links.iter().filter(|l| l.event.is_some()).count();
+    let kept = links.iter().take(first).zip(&chain.links).all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_S);
+    if heard <= chain.heard() || !kept {
+        return chain;
+    }
+    events.extend(late);
+    let near = |time_s: f64| links.iter().any(|l| (l.time_s - time_s).abs() < SAME_S);
+    let rejected = chain.rejected.iter().filter(|r| !near(r.time_s)).copied().collect();
+    Chain { evidence: chain.evidence.max(end.evidence), links, rejected }
+}
