@@ -1,7 +1,7 @@
 //! Correlation with the mean impact of the drop: all of the sound says when it came.
 
 use super::Window;
-use super::interpolate::{KERNEL, interpolated, shifted};
+use super::interpolate::{KERNEL, maximum, shifted};
 use crate::units::{real, samples_in};
 
 /// Where an impact matches the mean of the others, in samples of its window.
@@ -118,23 +118,6 @@ fn best(samples: &[f64], shape: &[f64], first: f64, search: usize) -> Option<Mat
         position: real(start) + offset,
         std: noise / (amplitude * slopes.sqrt()),
     })
-}
-
-/// Maximum near index `top` of a band-limited sequence: bisection of the interval by thirds (golden section).
-fn maximum(values: &[f64], top: usize) -> (f64, f64) {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    const STEPS: usize = 30;
-    let (mut a, mut b) = (real(top) - 1.0, real(top) + 1.0);
-    for _ in 0..STEPS {
-        let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-        if interpolated(values, c) > interpolated(values, d) {
-            b = d;
-        } else {
-            a = c;
-        }
-    }
-    let x = 0.5 * (a + b);
-    (x, interpolated(values, x))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

@@ -21,6 +21,24 @@ pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
         .collect()
 }
 
+/// Maximum near index `top` of a band-limited sequence: bisection of the interval by thirds (golden section).
+#[must_use]
+pub fn maximum(values: &[f64], top: usize) -> (f64, f64) {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    const STEPS: usize = 30;
+    let (mut a, mut b) = (real(top) - 1.0, real(top) + 1.0);
+    for _ in 0..STEPS {
+        let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
+        if interpolated(values, c) > interpolated(values, d) {
+            b = d;
+        } else {
+            a = c;
+        }
+    }
+    let x = 0.5 * (a + b);
+    (x, interpolated(values, x))
+}
+
 /// A sinc under the window (1 − (x/K)²)² around a position, and the index that its first weight belongs to.
 ///
 /// `sin(π(x − i))` changes only its sign from one sample to the next.
