@@ -133,9 +133,18 @@ fn matched_length(shape: &[f64], before: usize, rate: f64) -> usize {
     enough.clamp(range.0.min(shape.len()), range.1.min(shape.len()))
 }
 
-/// `Σ aᵢ·bᵢ`.
+/// `Σ aᵢ·bᵢ` over two sequences of one length, in sums that run side by side.
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+    const LANES: usize = 8;
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for (x, y) in a.iter().zip(b) {
+        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
+            *sum += x * y;
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(x, y)| x * y).sum();
+    sums.iter().sum::<f64>() + rest
 }
 
 /// `Σ_j a[k + j]·b[j]` for every k, by Fourier transforms; b is shorter than a, and the last values wrap around.

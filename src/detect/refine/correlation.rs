@@ -2,6 +2,7 @@
 
 use super::Window;
 use super::interpolate::{KERNEL, maximum, shifted};
+use crate::detect::voice::dot;
 use crate::units::{real, samples_in};
 
 /// Where an impact matches the mean of the others, in samples of its window.
@@ -92,10 +93,7 @@ fn best(samples: &[f64], shape: &[f64], first: f64, search: usize) -> Option<Mat
     let reach = search + KERNEL;
     let start = base.checked_sub(reach)?;
     let needed = samples.get(start..base + reach + shape.len() + 1)?;
-    let products: Vec<f64> = needed
-        .windows(shape.len())
-        .map(|w| w.iter().zip(shape).map(|(a, b)| a * b).sum())
-        .collect();
+    let products: Vec<f64> = needed.windows(shape.len()).map(|w| dot(w, shape)).collect();
     let inside = KERNEL..products.len() - KERNEL;
     let top = inside.max_by(|&a, &b| products[a].total_cmp(&products[b]))?;
     let (offset, height) = maximum(&products, top);

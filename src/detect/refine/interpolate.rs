@@ -16,9 +16,17 @@ pub fn interpolated(values: &[f64], position: f64) -> f64 {
 #[must_use]
 pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
     let (first, kernel) = kernel(position);
-    (0..length)
-        .map(|i| weighted(samples, first.saturating_add_unsigned(i), &kernel))
-        .collect()
+    let mut out = vec![0.0; length];
+    // Tap by tap over all samples: sums of neighbours then run side by side in the machine's vectors.
+    for (tap, weight) in kernel.iter().enumerate() {
+        let start = first.saturating_add_unsigned(tap);
+        let skip = usize::try_from(-start).unwrap_or(0).min(length);
+        let from = usize::try_from(start).unwrap_or(0).min(samples.len());
+        for (y, x) in out[skip..].iter_mut().zip(&samples[from..]) {
+            *y += weight * x;
+        }
+    }
+    out
 }
 
 /// Maximum near index `top` of a band-limited sequence: bisection of the interval by thirds (golden section).
