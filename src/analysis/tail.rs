@@ -16,8 +16,10 @@ const LEAD: usize = 3;
 const PAST_END: f64 = 2.0;
 /// Longest region that is searched, in seconds.
 const LONGEST_REGION_S: f64 = 4.0;
-/// A new impact replaces an old one that is nearer than this, in seconds.
+/// What was rejected is an impact after all if one is found nearer than this, in seconds.
 const SAME_S: f64 = 1e-3;
+/// The new chain is the old one if its early impacts are nearer to the old ones than the jitter of a thud, in seconds.
+const SAME_CHAIN_S: f64 = 3e-3;
 
 /// The chain with its end followed by the sound of its impacts, if that finds more; new events are added to `events`.
 pub(super) fn follow(
@@ -93,13 +95,15 @@ fn joined(
     late: Vec<Event>,
     events: &mut Vec<Event>,
 ) -> Chain {
-    let Some(begin_s) = end.links.first().map(|l| l.time_s) else {
+    let [first_new, second_new, ..] = end.links.as_slice() else {
         return chain;
     };
+    // Whatever of the old chain is nearer to the first new impact than half its flight is the same impact.
+    let begin_s = first_new.time_s - 0.5 * (second_new.time_s - first_new.time_s);
     let early = chain
         .links
         .iter()
-        .take_while(|l| l.time_s < begin_s - SAME_S)
+        .take_while(|l| l.time_s < begin_s)
         .copied();
     let offset = events.len();
     let new = end.links.iter().map(|l| sequence::Link {
@@ -112,7 +116,7 @@ fn joined(
         .iter()
         .take(first)
         .zip(&chain.links)
-        .all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_S);
+        .all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_CHAIN_S);
     if heard <= chain.heard() || !kept {
         return chain;
     }

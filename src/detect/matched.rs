@@ -23,9 +23,9 @@ const LEAST_JITTER_S: f64 = 0.05e-3;
 
 /// Matches with the mean of the impacts known so far, in a region of the recording, in order of time.
 ///
-/// `impacts_s` are onset times below a sample, ascending; `region_s` is where to look. The strength of a match of z
-/// standard deviations is its log-likelihood ratio z²/2. None where too few impacts stand alone long enough to learn
-/// from, or the region is cut by the end of the recording.
+/// `impacts_s` are onset times below a sample, ascending; `region_s` is where to look. The strength of a match is its
+/// size in standard deviations of the noise, which falls with the ball's speed as loudness does. None where too few
+/// impacts stand alone long enough to learn from, or the region is cut by the end of the recording.
 #[must_use]
 pub fn candidates(
     samples: &[f32],
@@ -46,7 +46,7 @@ pub fn candidates(
         .map(|(position, z)| Candidate {
             time_s: (real(start + voice.before) + position) / sample_rate_hz,
             jitter_s: (JITTER_S / z).max(LEAST_JITTER_S),
-            strength: 0.5 * z * z,
+            strength: z,
         })
         .collect();
     found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
@@ -201,7 +201,7 @@ mod tests {
         let echo = found.iter().filter(|c| (c.time_s - 1.0353).abs() < 3e-3);
         assert!(
             echo.clone()
-                .all(|c| c.strength < 1e-3 * strongest[3].strength),
+                .all(|c| c.strength < 0.03 * strongest[3].strength),
             "{echo:?}"
         );
     }

@@ -53,7 +53,8 @@ pub struct Candidate {
     /// How far off the time may be, in seconds (one standard deviation): a quarter of a millisecond for a click, a
     /// millisecond or two for a thud.
     pub jitter_s: f64,
-    /// Evidence that something struck, in nats: a log-likelihood ratio summed over bands.
+    /// Evidence that something struck: a log-likelihood ratio in nats summed over bands, or the size of a match in
+    /// standard deviations.
     pub strength: f64,
 }
 

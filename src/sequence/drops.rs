@@ -129,7 +129,10 @@ pub fn follow_again(events: &[Event], impacts_s: &[f64], settings: &Settings) ->
         })
         .collect();
     let seeds = known.windows(3).filter_map(|w| Some([w[0]?, w[1]?, w[2]?]));
-    let chains = seeds.map(|seed| Chain::new(follow(&scene, seed)));
+    // The known impacts are no clutter to each other.
+    let own: Vec<usize> = known.iter().flatten().copied().collect();
+    let clearer = scene.without(&own);
+    let chains = seeds.map(|seed| Chain::new(follow(&clearer, seed)));
     let best = chains.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
     Some(sharpen(&scene, best))
 }
@@ -144,6 +147,9 @@ fn sharpen(scene: &Scene<'_>, mut chain: Chain) -> Chain {
         };
         let explained = reasons::explained(scene, &chain);
         let next = Chain::new(follow(&scene.without(&explained), seed));
+        if next.evidence < chain.evidence {
+            break;
+        }
         let settled = next.events().eq(chain.events());
         chain = next;
         if settled {

@@ -314,7 +314,10 @@ impl Hypothesis {
         // The density is of ln T; per second it is divided by T.
         let density = expected.ln_density(ratio.ln() - expected.mean) - flight.ln();
         // Loudness is not monotone, but an impact much fainter than those around it is more likely to be something else.
-        let fainter = (self.loudness - ln_strength(scene, event)).max(0.0) / LOUDNESS_SPREAD;
+        // A slower impact is fainter by its speed.
+        let slower = if way == Way::Forward { ratio.ln() } else { 0.0 };
+        let expected_loudness = self.loudness + slower;
+        let fainter = (expected_loudness - ln_strength(scene, event)).max(0.0) / LOUDNESS_SPREAD;
         let gain = density - scene.ln_rate(event) - 0.5 * fainter * fainter - STEP_COST;
         if gain < -self.silence_cost() {
             // Silence explains it better.
@@ -327,7 +330,8 @@ impl Hypothesis {
             unheard: 0,
             jitter_s: scene.events[event].jitter_s,
         };
-        child.loudness += NEWEST_SHARE * (ln_strength(scene, event) - self.loudness);
+        child.loudness =
+            expected_loudness + NEWEST_SHARE * (ln_strength(scene, event) - expected_loudness);
         Some(child.after(
             Step {
                 event: Some(event),
