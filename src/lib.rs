@@ -20,6 +20,7 @@ pub mod physics;
 pub mod random;
 pub mod report;
 pub mod sequence;
+pub mod solve;
 pub mod synth;
 pub mod units;
 pub mod wav;
