@@ -17,6 +17,7 @@ pub mod detect;
 pub mod error;
 pub mod fit;
 pub mod physics;
+pub mod plot;
 pub mod random;
 pub mod report;
 pub mod sequence;

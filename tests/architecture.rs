@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis ← cli.
-const FORBIDDEN: [(&str, &[&str]); 10] = [
+const FORBIDDEN: [(&str, &[&str]); 11] = [
     (
         "physics",
         &[
@@ -44,6 +44,13 @@ const FORBIDDEN: [(&str, &[&str]); 10] = [
     ),
     ("analysis", &["wav", "synth", "cli"]),
     (
+        "plot",
+        &[
+            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "solve", "synth",
+            "cli",
+        ],
+    ),
+    (
         "solve",
         &[
             "detect", "sequence", "fit", "wav", "analysis", "synth", "cli",
@@ -64,8 +71,8 @@ const FORBIDDEN: [(&str, &[&str]); 10] = [
 ];
 
 /// Folders that must build without a file system, threads or a terminal.
-const CORE: [&str; 8] = [
-    "physics", "detect", "sequence", "fit", "report", "analysis", "solve", "synth",
+const CORE: [&str; 9] = [
+    "physics", "detect", "sequence", "fit", "report", "analysis", "plot", "solve", "synth",
 ];
 const OUTSIDE: [&str; 6] = [
     "std::fs",
