@@ -73,11 +73,11 @@ pub(super) struct Arguments {
         allow_hyphen_values = true
     )]
     gravity: f64,
-    #[command(flatten)]
-    errors: ErrorArguments,
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    errors: ErrorArguments,
 }
 
 #[derive(Debug, Clone, Copy, Args)]
