@@ -44,6 +44,12 @@ pub enum Error {
         /// What they were needed for.
         purpose: &'static str,
     },
+    /// A picture could not be drawn.
+    #[error("cannot draw: {problem}")]
+    Plot {
+        /// Why not.
+        problem: String,
+    },
     /// Reading or writing failed.
     #[error(transparent)]
     Io(#[from] std::io::Error),

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis ← cli.
-const FORBIDDEN: [(&str, &[&str]); 9] = [
+const FORBIDDEN: [(&str, &[&str]); 11] = [
     (
         "physics",
         &[
@@ -44,6 +44,19 @@ const FORBIDDEN: [(&str, &[&str]); 9] = [
     ),
     ("analysis", &["wav", "synth", "cli"]),
     (
+        "plot",
+        &[
+            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "solve", "synth",
+            "cli",
+        ],
+    ),
+    (
+        "solve",
+        &[
+            "detect", "sequence", "fit", "wav", "analysis", "synth", "cli",
+        ],
+    ),
+    (
         "synth",
         &[
             "detect", "sequence", "fit", "wav", "report", "analysis", "cli",
@@ -58,8 +71,8 @@ const FORBIDDEN: [(&str, &[&str]); 9] = [
 ];
 
 /// Folders that must build without a file system, threads or a terminal.
-const CORE: [&str; 7] = [
-    "physics", "detect", "sequence", "fit", "report", "analysis", "synth",
+const CORE: [&str; 9] = [
+    "physics", "detect", "sequence", "fit", "report", "analysis", "plot", "solve", "synth",
 ];
 const OUTSIDE: [&str; 6] = [
     "std::fs",

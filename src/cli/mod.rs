@@ -1,6 +1,7 @@
 //! The command line: parses, calls the library and says what to print. Files and standard input are touched here.
 
 mod analyze;
+mod solve;
 mod synth;
 
 use std::process::ExitCode;
@@ -21,6 +22,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Analyze(analyze::Arguments),
+    Solve(solve::Arguments),
     Synth(synth::Arguments),
 }
 
@@ -40,6 +42,7 @@ pub struct Outcome {
 pub fn run() -> Result<Outcome, Error> {
     match Arguments::parse().command {
         Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Solve(arguments) => solve::run(&arguments),
         Command::Synth(arguments) => synth::run(&arguments),
     }
 }
@@ -58,6 +61,10 @@ fn length(text: &str) -> Result<f64, Error> {
 
 fn time(text: &str) -> Result<f64, Error> {
     Quantity::Time.parse("time", text)
+}
+
+fn mass(text: &str) -> Result<f64, Error> {
+    Quantity::Mass.parse("mass", text)
 }
 
 fn acceleration(text: &str) -> Result<f64, Error> {
