@@ -147,7 +147,7 @@ fn sharpen(scene: &Scene<'_>, mut chain: Chain) -> Chain {
         };
         let explained = reasons::explained(scene, &chain);
         let next = Chain::new(follow(&scene.without(&explained), seed));
-        if next.evidence < chain.evidence {
+        if next.evidence < chain.evidence && next.heard() < chain.heard() {
             break;
         }
         let settled = next.events().eq(chain.events());
