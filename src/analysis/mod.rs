@@ -182,8 +182,13 @@ fn explain(
         .collect();
     let found = sequence::find(&events, &settings.sequence)?;
     let mut all = events.clone();
-    let chains = found.drops.into_iter().map(|chain| tail::follow(stretch, chain, &mut all, &settings.sequence));
-    let drops: Vec<Drop> = chains.map(|chain| drop::measure(stretch, &chain, settings)).collect::<Result<_, _>>()?;
+    let chains = found
+        .drops
+        .into_iter()
+        .map(|chain| tail::follow(stretch, chain, &mut all, &settings.sequence));
+    let drops: Vec<Drop> = chains
+        .map(|chain| drop::measure(stretch, &chain, settings))
+        .collect::<Result<_, _>>()?;
     Ok(Analysis {
         rejected: found.rejected.iter().map(rejected).collect(),
         rejected_weak: found.weak,

@@ -29,19 +29,35 @@ pub(super) fn follow(
     let Some((first, region_s)) = region(&chain, stretch.end_s()) else {
         return chain;
     };
-    let heard: Vec<f64> =
-        chain.links.iter().filter(|l| l.event.is_some()).map(|l| l.time_s - stretch.start_s).collect();
-    let onsets: Vec<f64> = refine(stretch.samples, stretch.sample_rate_hz, &heard, stretch.hop_s, Timing::Correlation)
+    let heard: Vec<f64> = chain
+        .links
         .iter()
-        .map(|t| t.time_s)
+        .filter(|l| l.event.is_some())
+        .map(|l| l.time_s - stretch.start_s)
         .collect();
+    let onsets: Vec<f64> = refine(
+        stretch.samples,
+        stretch.sample_rate_hz,
+        &heard,
+        stretch.hop_s,
+        Timing::Correlation,
+    )
+    .iter()
+    .map(|t| t.time_s)
+    .collect();
     let inside_s = (region_s.0 - stretch.start_s, region_s.1 - stretch.start_s);
-    let Some(found) = matched::candidates(stretch.samples, stretch.sample_rate_hz, &onsets, inside_s) else {
+    let Some(found) =
+        matched::candidates(stretch.samples, stretch.sample_rate_hz, &onsets, inside_s)
+    else {
         return chain;
     };
     let late: Vec<Event> = found
         .iter()
-        .map(|c| Event { time_s: stretch.start_s + c.time_s, jitter_s: c.jitter_s, strength: c.strength })
+        .map(|c| Event {
+            time_s: stretch.start_s + c.time_s,
+            jitter_s: c.jitter_s,
+            strength: c.strength,
+        })
         .collect();
     let onsets: Vec<f64> = onsets.iter().map(|t| stretch.start_s + t).collect();
     match sequence::follow_again(&late, &onsets, settings) {
@@ -54,32 +70,63 @@ pub(super) fn follow(
 fn region(chain: &Chain, recording_end_s: f64) -> Option<(usize, (f64, f64))> {
     let flight = |i: usize| chain.links[i + 1].time_s - chain.links[i].time_s;
     let flights = chain.links.len().checked_sub(1)?;
-    let short = (0..flights).find(|&i| flight(i) < SHORT_FLIGHT_S).unwrap_or(flights);
+    let short = (0..flights)
+        .find(|&i| flight(i) < SHORT_FLIGHT_S)
+        .unwrap_or(flights);
     let first = short.min(flights.checked_sub(LEAD)?).saturating_sub(LEAD);
     let last_s = chain.links[flights].time_s;
-    let ratio = (flight(flights - 1) / flight(first)).powf(1.0 / crate::units::real((flights - 1 - first).max(1)));
+    let ratio = (flight(flights - 1) / flight(first))
+        .powf(1.0 / crate::units::real((flights - 1 - first).max(1)));
     let left_s = flight(flights - 1) * ratio / (1.0 - ratio).max(0.01);
     let start_s = chain.links[first].time_s - 0.2 * flight(first);
-    let end_s = (last_s + PAST_END * left_s + SHORT_FLIGHT_S).min(recording_end_s).min(start_s + LONGEST_REGION_S);
+    let end_s = (last_s + PAST_END * left_s + SHORT_FLIGHT_S)
+        .min(recording_end_s)
+        .min(start_s + LONGEST_REGION_S);
     Some((first, (start_s, end_s)))
 }
 
 /// The early part of the old chain and the new late part, if more was heard that way.
-fn joined(chain: Chain, first: usize, end: Chain, late: Vec<Event>, events: &mut Vec<Event>) -> Chain {
+fn joined(
+    chain: Chain,
+    first: usize,
+    end: Chain,
+    late: Vec<Event>,
+    events: &mut Vec<Event>,
+) -> Chain {
     let Some(begin_s) = end.links.first().map(|l| l.time_s) else {
         return chain;
     };
-    let early = chain.links.iter().take_while(|l| l.time_s < begin_s - SAME_S).copied();
+    let early = chain
+        .links
+        .iter()
+        .take_while(|l| l.time_s < begin_s - SAME_S)
+        .copied();
     let offset = events.len();
-    let new = end.links.iter().map(|l| sequence::Link { event: l.event.map(|i| offset + i), ..*l });
+    let new = end.links.iter().map(|l| sequence::Link {
+        event: l.event.map(|i| offset + i),
+        ..*l
+    });
     let links: Vec<sequence::Link> = early.chain(new).collect();
     let heard = links.iter().filter(|l| l.event.is_some()).count();
-    let kept = links.iter().take(first).zip(&chain.links).all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_S);
+    let kept = links
+        .iter()
+        .take(first)
+        .zip(&chain.links)
+        .all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_S);
     if heard <= chain.heard() || !kept {
         return chain;
     }
     events.extend(late);
     let near = |time_s: f64| links.iter().any(|l| (l.time_s - time_s).abs() < SAME_S);
-    let rejected = chain.rejected.iter().filter(|r| !near(r.time_s)).copied().collect();
-    Chain { evidence: chain.evidence.max(end.evidence), links, rejected }
+    let rejected = chain
+        .rejected
+        .iter()
+        .filter(|r| !near(r.time_s))
+        .copied()
+        .collect();
+    Chain {
+        evidence: chain.evidence.max(end.evidence),
+        links,
+        rejected,
+    }
 }

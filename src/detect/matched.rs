@@ -87,15 +87,23 @@ impl Voice {
         }
         let before = samples_in(BEFORE_S, rate);
         let length = before + samples_in(length_s, rate);
-        let alone = impacts_s.windows(2).filter(|w| w[1] - w[0] > length_s + BEFORE_S).map(|w| w[0]);
-        let sounds: Vec<Vec<f64>> =
-            alone.filter_map(|onset_s| sound_at(samples, rate, onset_s, before, length, whitener)).collect();
+        let alone = impacts_s
+            .windows(2)
+            .filter(|w| w[1] - w[0] > length_s + BEFORE_S)
+            .map(|w| w[0]);
+        let sounds: Vec<Vec<f64>> = alone
+            .filter_map(|onset_s| sound_at(samples, rate, onset_s, before, length, whitener))
+            .collect();
         if sounds.len() < FEWEST {
             return None;
         }
         let shape = mean_shape(&sounds, length);
         let matched = matched_length(&shape, before, rate);
-        Some(Self { shape, before, matched })
+        Some(Self {
+            shape,
+            before,
+            matched,
+        })
     }
 }
 
@@ -112,7 +120,11 @@ fn sound_at(
     let first = (onset_s * rate).floor();
     let start = samples_in(first, 1.0).checked_sub(before + MARGIN)?;
     let sound = whitener.apply(samples, start, start + length + 2 * MARGIN)?;
-    Some(shifted(&sound, real(MARGIN) + onset_s * rate - first, length))
+    Some(shifted(
+        &sound,
+        real(MARGIN) + onset_s * rate - first,
+        length,
+    ))
 }
 
 /// The shape s and amplitudes aᵢ that leave least of `xᵢ − aᵢ·s`: in turn aᵢ = ⟨xᵢ, s⟩/⟨s, s⟩ and s = Σaᵢxᵢ/Σaᵢ².
@@ -145,7 +157,10 @@ fn matched_length(shape: &[f64], before: usize, rate: f64) -> usize {
             sum >= MATCHED_SHARE * energy
         })
         .unwrap_or(shape.len());
-    let range = (before + samples_in(MATCHED_S.0, rate), before + samples_in(MATCHED_S.1, rate));
+    let range = (
+        before + samples_in(MATCHED_S.0, rate),
+        before + samples_in(MATCHED_S.1, rate),
+    );
     enough.clamp(range.0.min(shape.len()), range.1.min(shape.len()))
 }
 
@@ -209,7 +224,10 @@ impl Residue {
             }
             let position = real(best) + self.vertex(best);
             found.push((position, z));
-            let (from, to) = (best.saturating_sub(apart), (best + apart + 1).min(self.taken.len()));
+            let (from, to) = (
+                best.saturating_sub(apart),
+                (best + apart + 1).min(self.taken.len()),
+            );
             self.taken[from..to].fill(true);
             self.subtract(position, product / energy, voice.matched);
         }
@@ -222,7 +240,11 @@ impl Residue {
             return 0.0;
         };
         let curvature = left - 2.0 * self.products[k] + right;
-        if curvature < 0.0 { (0.5 * (left - right) / curvature).clamp(-0.5, 0.5) } else { 0.0 }
+        if curvature < 0.0 {
+            (0.5 * (left - right) / curvature).clamp(-0.5, 0.5)
+        } else {
+            0.0
+        }
     }
 
     fn subtract(&mut self, position: f64, amplitude: f64, matched: usize) {
@@ -244,7 +266,10 @@ impl Residue {
 fn correlate(a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
     let length = a.len().next_power_of_two();
     let mut planner = realfft::RealFftPlanner::new();
-    let (forward, inverse) = (planner.plan_fft_forward(length), planner.plan_fft_inverse(length));
+    let (forward, inverse) = (
+        planner.plan_fft_forward(length),
+        planner.plan_fft_inverse(length),
+    );
     let spectrum = |values: &[f64]| {
         let mut padded = values.to_vec();
         padded.resize(length, 0.0);
@@ -278,13 +303,22 @@ mod tests {
     fn recording(impacts: &[(f64, f64)]) -> Vec<f32> {
         let mut rng = SplitMix64::new(12);
         let ring = |t: f64| {
-            if t > 0.0 { (-t / 8e-3).exp() * (1.0 - (-t / 2e-4).exp()) * (std::f64::consts::TAU * 900.0 * t).sin() } else { 0.0 }
+            if t > 0.0 {
+                (-t / 8e-3).exp()
+                    * (1.0 - (-t / 2e-4).exp())
+                    * (std::f64::consts::TAU * 900.0 * t).sin()
+            } else {
+                0.0
+            }
         };
         #[expect(clippy::cast_possible_truncation, reason = "test samples")]
         (0..88_200)
             .map(|i| {
                 let t = real(i) / RATE;
-                let sound: f64 = impacts.iter().map(|&(at, a)| a * (ring(t - at) + 0.4 * ring(t - at - 11e-3))).sum();
+                let sound: f64 = impacts
+                    .iter()
+                    .map(|&(at, a)| a * (ring(t - at) + 0.4 * ring(t - at - 11e-3)))
+                    .sum();
                 (sound + 1e-3 * rng.normal()) as f32
             })
             .collect()
@@ -292,7 +326,9 @@ mod tests {
 
     #[test]
     fn impacts_under_the_ring_and_the_echo_of_others_are_found() {
-        let known: Vec<(f64, f64)> = (0..6).map(|i| (0.3 + 0.1 * real(i), 0.5 - 0.05 * real(i))).collect();
+        let known: Vec<(f64, f64)> = (0..6)
+            .map(|i| (0.3 + 0.1 * real(i), 0.5 - 0.05 * real(i)))
+            .collect();
         let late = [(1.000, 0.2), (1.009, 0.15), (1.0171, 0.12), (1.0243, 0.1)];
         let samples = recording(&[&known[..], &late].concat());
         let onsets: Vec<f64> = known.iter().map(|k| k.0).collect();
@@ -306,7 +342,12 @@ mod tests {
             assert!((time - true_time).abs() < 1e-4, "{times:?}");
         }
         // Nothing else is a fifth as strong: the echoes are gone.
-        assert!(strongest[4..].iter().all(|c| c.strength < 0.2 * strongest[3].strength), "{strongest:?}");
+        assert!(
+            strongest[4..]
+                .iter()
+                .all(|c| c.strength < 0.2 * strongest[3].strength),
+            "{strongest:?}"
+        );
     }
 
     #[test]
