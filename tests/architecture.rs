@@ -8,58 +8,70 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis ← cli.
-const FORBIDDEN: [(&str, &[&str]); 9] = [
+/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis, evaluate ← cli.
+const FORBIDDEN: [(&str, &[&str]); 10] = [
     (
         "physics",
         &[
-            "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+            "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "detect",
         &[
-            "physics", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+            "physics", "sequence", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "sequence",
-        &["detect", "fit", "wav", "report", "analysis", "synth", "cli"],
+        &[
+            "detect", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
+        ],
     ),
     (
         "fit",
         &[
-            "detect", "sequence", "wav", "report", "analysis", "synth", "cli",
+            "detect", "sequence", "wav", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "report",
-        &["physics", "sequence", "wav", "analysis", "synth", "cli"],
+        &[
+            "physics", "sequence", "wav", "analysis", "synth", "evaluate", "cli",
+        ],
     ),
     (
         "wav",
         &[
-            "physics", "detect", "sequence", "fit", "report", "analysis", "synth", "cli",
+            "physics", "detect", "sequence", "fit", "report", "analysis", "synth", "evaluate",
+            "cli",
         ],
     ),
-    ("analysis", &["wav", "synth", "cli"]),
+    ("analysis", &["wav", "synth", "evaluate", "cli"]),
     (
         "synth",
         &[
-            "detect", "sequence", "fit", "wav", "report", "analysis", "cli",
+            "detect", "sequence", "fit", "wav", "report", "analysis", "evaluate", "cli",
+        ],
+    ),
+    (
+        "evaluate",
+        &[
+            "physics", "detect", "sequence", "fit", "wav", "analysis", "synth", "cli",
         ],
     ),
     (
         "random.rs",
         &[
-            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "synth",
+            "evaluate", "cli",
         ],
     ),
 ];
 
 /// Folders that must build without a file system, threads or a terminal.
-const CORE: [&str; 7] = [
-    "physics", "detect", "sequence", "fit", "report", "analysis", "synth",
+const CORE: [&str; 8] = [
+    "physics", "detect", "sequence", "fit", "report", "analysis", "synth", "evaluate",
 ];
 const OUTSIDE: [&str; 6] = [
     "std::fs",

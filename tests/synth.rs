@@ -8,6 +8,7 @@
 
 use bounce_audio::synth::scene::{Mode, Scene, preset};
 use bounce_audio::synth::{Synthetic, render};
+use bounce_audio::units::samples_in;
 
 /// A scene without noise in floating point, every impact of which sounds alike but for its loudness.
 fn clean(name: &str) -> Scene {
@@ -42,8 +43,8 @@ fn delay_s(made: &Synthetic, early: usize, late: usize) -> f64 {
     let times = &made.truth.drops[0].impacts_s;
     let length = 1024;
     // Both pieces begin some samples before the onset, as a listener would cut them.
-    let first = (times[early] * rate) as usize - 20;
-    let second = first + ((times[late] - times[early]) * rate).round() as usize;
+    let first = samples_in(times[early], rate) - 20;
+    let second = first + samples_in(times[late] - times[early], rate);
     let pieces = [first, second].map(|at| &made.samples[at..at + length]);
     let (mut weighted, mut weights) = (0.0, 0.0);
     for bin in 1..length / 2 {
@@ -70,7 +71,7 @@ fn sounds_begin_where_the_truth_says() {
         let rate = f64::from(made.truth.sample_rate_hz);
         for (i, onset_s) in made.truth.drops[0].impacts_s.iter().enumerate().take(3) {
             // The first sound after silence: a cubic start, so extrapolated from the first two samples heard.
-            let from = ((onset_s - 2e-3) * rate) as usize;
+            let from = samples_in(onset_s - 2e-3, rate);
             let Some(quiet) = made.samples[from..from + 200]
                 .iter()
                 .position(|&x| x != 0.0)
@@ -113,7 +114,7 @@ fn the_spectrum_of_an_impact_shows_its_modes() {
         .to_vec();
     let made = render(&scene, 1).unwrap();
     let rate = f64::from(made.truth.sample_rate_hz);
-    let first = (made.truth.drops[0].impacts_s[0] * rate) as usize;
+    let first = samples_in(made.truth.drops[0].impacts_s[0], rate);
     let sound = &made.samples[first..first + 2_048];
     let spectrum: Vec<(f64, f64)> = (100..1_200)
         .map(|k| 10.0 * f64::from(k))

@@ -1,6 +1,8 @@
 //! The command line: parses, calls the library and says what to print. Files and standard input are touched here.
 
 mod analyze;
+mod evaluate;
+mod limit;
 mod synth;
 
 use std::process::ExitCode;
@@ -22,6 +24,7 @@ struct Arguments {
 enum Command {
     Analyze(analyze::Arguments),
     Synth(synth::Arguments),
+    Evaluate(evaluate::Arguments),
 }
 
 /// What a command leaves behind.
@@ -41,6 +44,7 @@ pub fn run() -> Result<Outcome, Error> {
     match Arguments::parse().command {
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Synth(arguments) => synth::run(&arguments),
+        Command::Evaluate(arguments) => evaluate::run(&arguments),
     }
 }
 
