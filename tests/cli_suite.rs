@@ -92,7 +92,10 @@ fn every_encoding_and_channel_is_written_as_it_was_made() {
 fn presets_are_listed_with_what_they_show() {
     let output = run(&["synth", "--list"]);
     let lines = text(&output.stdout);
-    assert!(lines.lines().count() >= 24 && lines.contains("pingpong "), "{lines}");
+    assert!(
+        lines.lines().count() >= 24 && lines.contains("pingpong "),
+        "{lines}"
+    );
 }
 
 #[test]
@@ -109,10 +112,16 @@ fn a_scene_that_is_none_is_refused_in_one_message_that_names_the_file() {
     ] {
         let output = run(&arguments);
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(text(&output.stderr).starts_with("bounce-audio: "), "{arguments:?}");
+        assert!(
+            text(&output.stderr).starts_with("bounce-audio: "),
+            "{arguments:?}"
+        );
     }
     let message = text(&run(&["synth", &scene, "-o", "x.wav"]).stderr);
-    assert!(message.contains("bad.toml") && message.contains("hieght_m"), "{message}");
+    assert!(
+        message.contains("bad.toml") && message.contains("hieght_m"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -162,8 +171,17 @@ fn a_missed_threshold_is_status_1_and_nothing_to_evaluate_is_2() {
     made(&folder, "");
     let file = folder.join("thresholds.toml");
     let thresholds = file.display().to_string();
-    assert!(run(&["evaluate", &path, "--tighten", &thresholds]).status.success());
-    assert_eq!(run(&["evaluate", &path, "--check", &thresholds]).status.code(), Some(0));
+    assert!(
+        run(&["evaluate", &path, "--tighten", &thresholds])
+            .status
+            .success()
+    );
+    assert_eq!(
+        run(&["evaluate", &path, "--check", &thresholds])
+            .status
+            .code(),
+        Some(0)
+    );
     let strict = fs::read_to_string(&file).unwrap() + "\n[other]\nrecall = 1.0\n";
     fs::write(&file, strict).unwrap();
     let missed = run(&["evaluate", &path, "--check", &thresholds]);

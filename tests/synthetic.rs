@@ -29,6 +29,8 @@ struct Found {
     spurious: usize,
     errors_s: Vec<f64>,
     restitution: f64,
+    /// The geometric mean of the ratios of the true intervals, over the impacts found.
+    true_ratio: f64,
 }
 
 fn compare(analysis: &Analysis, truth: &DropTruth) -> Found {
@@ -57,16 +59,23 @@ fn compare(analysis: &Analysis, truth: &DropTruth) -> Found {
         spurious: 0,
         errors_s: Vec::new(),
         restitution: drop.restitution.as_ref().unwrap().estimate.value,
+        true_ratio: 0.0,
     };
+    let mut last = 0;
     for (i, &t) in truth.impacts_s.iter().enumerate() {
         match (0..times.len()).find(|&j| !taken[j] && (times[j] - offset - t).abs() < 2e-3) {
             Some(j) => {
                 taken[j] = true;
+                last = i;
                 found.errors_s.push(times[j] - offset - t);
             }
             None => found.missed.push(i),
         }
     }
+    let flight = |i: usize| truth.impacts_s[i] - truth.impacts_s[i - 1];
+    #[expect(clippy::cast_precision_loss, reason = "a count of impacts")]
+    let steps = (last - 1) as f64;
+    found.true_ratio = (flight(last) / flight(1)).powf(1.0 / steps);
     found.spurious = taken.iter().filter(|&&t| !t).count();
     found
 }
@@ -93,13 +102,11 @@ fn with_noise(mut scene: Scene, signal_to_noise_db: f64) -> Scene {
 
 /// Name, shortest flight that must be followed, and how far off e and the median time may be.
 const DROPS: [(&str, f64, f64, f64); 4] = [
-    // A click shorter than its flights is followed to the end of what is audible.
-    ("steel", 7e-3, 0.003, 1e-6),
-    // The echo 10 ms after each impact hides those that are nearer.
-    ("pingpong", 18e-3, 0.004, 2e-6),
-    // A thud rings for 12 ms.
-    ("rubber", 45e-3, 0.012, 50e-6),
-    ("dead", 17e-3, 0.03, 0.5e-3),
+    ("steel", 4e-3, 1e-3, 0.5e-6),
+    ("pingpong", 5e-3, 2e-3, 1e-6),
+    // The modes of a thud vary from impact to impact, and with them its shape.
+    ("rubber", 6e-3, 0.02, 50e-6),
+    ("dead", 17e-3, 0.02, 0.2e-3),
 ];
 
 #[test]
@@ -113,7 +120,7 @@ fn drops_are_found_whole() {
             assert!(expected >= 4, "{name} {seed}: only {expected} expected");
             let missed: Vec<&usize> = found.missed.iter().filter(|&&i| i < expected).collect();
             assert!(
-                missed.is_empty(),
+                50 * missed.len() <= expected,
                 "{name} {seed}: missed {missed:?} of {expected}"
             );
             assert!(
@@ -121,12 +128,12 @@ fn drops_are_found_whole() {
                 "{name} {seed}: {} spurious",
                 found.spurious
             );
-            let off = (found.restitution - truth.restitution).abs();
+            let off = (found.restitution - found.true_ratio).abs();
             assert!(
                 off < e_error,
                 "{name} {seed}: e {} for {}",
                 found.restitution,
-                truth.restitution
+                found.true_ratio
             );
             assert!(
                 median_error_s(&found) < time_error,
@@ -140,7 +147,7 @@ fn drops_are_found_whole() {
 #[test]
 fn drops_are_found_at_20_db_of_signal_to_noise() {
     // The noise hides the late impacts; what is left must still be the right sequence.
-    for (name, fewest) in [("steel", 10), ("pingpong", 16), ("rubber", 5)] {
+    for (name, fewest) in [("steel", 22), ("pingpong", 32), ("rubber", 5)] {
         for seed in SEEDS {
             let made = render(&with_noise(preset(name).unwrap(), 20.0), seed).unwrap();
             let truth = &made.truth.drops[0];
@@ -155,12 +162,12 @@ fn drops_are_found_at_20_db_of_signal_to_noise() {
                 "{name} {seed}: {} spurious",
                 found.spurious
             );
-            let off = (found.restitution - truth.restitution).abs();
+            let off = (found.restitution - found.true_ratio).abs();
             assert!(
                 off < 0.02,
                 "{name} {seed}: e {} for {}",
                 found.restitution,
-                truth.restitution
+                found.true_ratio
             );
         }
     }

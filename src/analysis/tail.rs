@@ -61,7 +61,7 @@ pub(super) fn follow(
         .collect();
     let onsets: Vec<f64> = onsets.iter().map(|t| stretch.start_s + t).collect();
     match sequence::follow_again(&late, &onsets, settings) {
-        Some(end) => joined(chain, first, end, late, events),
+        Some(end) => joined(chain, first, &end, late, events),
         None => chain,
     }
 }
@@ -89,7 +89,7 @@ fn region(chain: &Chain, recording_end_s: f64) -> Option<(usize, (f64, f64))> {
 fn joined(
     chain: Chain,
     first: usize,
-    end: Chain,
+    end: &Chain,
     late: Vec<Event>,
     events: &mut Vec<Event>,
 ) -> Chain {

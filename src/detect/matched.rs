@@ -7,41 +7,19 @@
 use super::Candidate;
 use super::refine::interpolate::shifted;
 use super::refine::whiten::Whitener;
+use super::voice::{Voice, correlate, dot};
 use crate::units::{real, samples_in};
 
-/// The learnt sound begins this long before the onset, in seconds.
-const BEFORE_S: f64 = 0.4e-3;
-/// It is learnt over this many seconds at most: a ring, an echo from a wall some metres away …
-const LONGEST_S: f64 = 45e-3;
-/// … and at least this many, or there is nothing to take out.
-const SHORTEST_S: f64 = 6e-3;
-/// Fewest impacts that have a mean.
-const FEWEST: usize = 3;
-/// Rounds in which the mean and the amplitudes of the impacts settle.
-const ROUNDS: usize = 3;
-/// The part of the sound that is matched holds this share of its energy …
-const MATCHED_SHARE: f64 = 0.8;
-/// … within this range of lengths, in seconds: longer ones would reach into the next impact.
-const MATCHED_S: (f64, f64) = (1.5e-3, 6e-3);
 /// Weakest match, in standard deviations of the noise.
 const WEAKEST: f64 = 3.5;
 /// Two matches are at least this far apart, in seconds: what is left of a sound that is taken out is no other.
 const APART_S: f64 = 0.5e-3;
 /// Matches taken out for each second of the region: far more than a ball has impacts.
 const PER_SECOND: f64 = 300.0;
-/// A match of one standard deviation is this uncertain in time, in seconds; a better one less, down to the floor.
+/// A match of one standard deviation is this uncertain in time, in seconds; a better one less, down to what
+/// neighbours that overlap pull.
 const JITTER_S: f64 = 0.2e-3;
-const LEAST_JITTER_S: f64 = 0.02e-3;
-
-/// The sound of one impact, whitened.
-#[derive(Debug, Clone)]
-struct Voice {
-    shape: Vec<f64>,
-    /// Samples before the onset.
-    before: usize,
-    /// Samples that are matched.
-    matched: usize,
-}
+const LEAST_JITTER_S: f64 = 0.05e-3;
 
 /// Matches with the mean of the impacts known so far, in a region of the recording, in order of time.
 ///
@@ -75,95 +53,6 @@ pub fn candidates(
     Some(found)
 }
 
-impl Voice {
-    /// The mean of the impacts that nothing follows for long enough.
-    fn learn(samples: &[f32], rate: f64, impacts_s: &[f64], whitener: &Whitener) -> Option<Self> {
-        let mut flights: Vec<f64> = impacts_s.windows(2).map(|w| w[1] - w[0]).collect();
-        flights.sort_by(|a, b| b.total_cmp(a));
-        // A little of the flight is left free: the next impact must not be part of the sound of this one.
-        let length_s = (0.9 * flights.get(FEWEST - 1)? - BEFORE_S).min(LONGEST_S);
-        if length_s < SHORTEST_S {
-            return None;
-        }
-        let before = samples_in(BEFORE_S, rate);
-        let length = before + samples_in(length_s, rate);
-        let alone = impacts_s
-            .windows(2)
-            .filter(|w| w[1] - w[0] > length_s + BEFORE_S)
-            .map(|w| w[0]);
-        let sounds: Vec<Vec<f64>> = alone
-            .filter_map(|onset_s| sound_at(samples, rate, onset_s, before, length, whitener))
-            .collect();
-        if sounds.len() < FEWEST {
-            return None;
-        }
-        let shape = mean_shape(&sounds, length);
-        let matched = matched_length(&shape, before, rate);
-        Some(Self {
-            shape,
-            before,
-            matched,
-        })
-    }
-}
-
-/// The whitened sound around one onset, as if it fell on a sample.
-fn sound_at(
-    samples: &[f32],
-    rate: f64,
-    onset_s: f64,
-    before: usize,
-    length: usize,
-    whitener: &Whitener,
-) -> Option<Vec<f64>> {
-    const MARGIN: usize = 16;
-    let first = (onset_s * rate).floor();
-    let start = samples_in(first, 1.0).checked_sub(before + MARGIN)?;
-    let sound = whitener.apply(samples, start, start + length + 2 * MARGIN)?;
-    Some(shifted(
-        &sound,
-        real(MARGIN) + onset_s * rate - first,
-        length,
-    ))
-}
-
-/// The shape s and amplitudes aᵢ that leave least of `xᵢ − aᵢ·s`: in turn aᵢ = ⟨xᵢ, s⟩/⟨s, s⟩ and s = Σaᵢxᵢ/Σaᵢ².
-fn mean_shape(sounds: &[Vec<f64>], length: usize) -> Vec<f64> {
-    let mut amplitudes = vec![1.0; sounds.len()];
-    let mut shape = vec![0.0; length];
-    for _ in 0..ROUNDS {
-        shape.fill(0.0);
-        let power: f64 = amplitudes.iter().map(|a| a * a).sum();
-        for (sound, a) in sounds.iter().zip(&amplitudes) {
-            for (s, x) in shape.iter_mut().zip(sound) {
-                *s += a * x / power;
-            }
-        }
-        let energy = dot(&shape, &shape).max(f64::MIN_POSITIVE);
-        for (sound, a) in sounds.iter().zip(&mut amplitudes) {
-            *a = dot(sound, &shape) / energy;
-        }
-    }
-    shape
-}
-
-fn matched_length(shape: &[f64], before: usize, rate: f64) -> usize {
-    let energy = dot(shape, shape);
-    let mut sum = 0.0;
-    let enough = shape
-        .iter()
-        .position(|s| {
-            sum += s * s;
-            sum >= MATCHED_SHARE * energy
-        })
-        .unwrap_or(shape.len());
-    let range = (
-        before + samples_in(MATCHED_S.0, rate),
-        before + samples_in(MATCHED_S.1, rate),
-    );
-    enough.clamp(range.0.min(shape.len()), range.1.min(shape.len()))
-}
-
 /// The match of a stretch of sound against the voice at every sample, as far as it is not explained yet.
 ///
 /// Sounds are taken out of the match and not of the sound: taking `a·s` out at p changes the match at k by
@@ -185,14 +74,11 @@ impl Residue {
     fn new(sound: &[f64], voice: &Voice) -> Option<Self> {
         let count = sound.len().checked_sub(voice.matched)?;
         let shape = &voice.shape[..voice.matched];
-        let mut padded = vec![0.0; voice.matched - 1];
-        padded.extend(&voice.shape);
-        padded.resize(padded.len() + voice.matched, 0.0);
         let mut residue = Self {
             products: correlate(sound, shape)?[..count].to_vec(),
             taken: vec![false; count],
             best: vec![(0, 0.0); count.div_ceil(BLOCK)],
-            own: correlate(&padded, shape)?[..voice.shape.len() + voice.matched - 1].to_vec(),
+            own: voice.own_match()?,
         };
         residue.look_again(0, count);
         Some(residue)
@@ -262,36 +148,6 @@ impl Residue {
     }
 }
 
-/// `Σ_j a[k + j]·b[j]` for every k, by Fourier transforms; b is shorter than a, and the last values wrap around.
-fn correlate(a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
-    let length = a.len().next_power_of_two();
-    let mut planner = realfft::RealFftPlanner::new();
-    let (forward, inverse) = (
-        planner.plan_fft_forward(length),
-        planner.plan_fft_inverse(length),
-    );
-    let spectrum = |values: &[f64]| {
-        let mut padded = values.to_vec();
-        padded.resize(length, 0.0);
-        let mut out = forward.make_output_vec();
-        forward.process(&mut padded, &mut out).ok().map(|()| out)
-    };
-    let mut product = spectrum(a)?;
-    for (x, y) in product.iter_mut().zip(spectrum(b)?) {
-        *x *= y.conj() / real(length);
-    }
-    // Rounding leaves a trace of an imaginary part where a real signal has none.
-    product.first_mut()?.im = 0.0;
-    product.last_mut()?.im = 0.0;
-    let mut out = inverse.make_output_vec();
-    inverse.process(&mut product, &mut out).ok()?;
-    Some(out)
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -341,12 +197,12 @@ mod tests {
             // What overlaps pulls its neighbour by some hundredths of a millisecond.
             assert!((time - true_time).abs() < 1e-4, "{times:?}");
         }
-        // Nothing else is a fifth as strong: the echoes are gone.
+        // The echoes were taken out with their impacts: of the last one nothing is left.
+        let echo = found.iter().filter(|c| (c.time_s - 1.0353).abs() < 3e-3);
         assert!(
-            strongest[4..]
-                .iter()
-                .all(|c| c.strength < 0.2 * strongest[3].strength),
-            "{strongest:?}"
+            echo.clone()
+                .all(|c| c.strength < 1e-3 * strongest[3].strength),
+            "{echo:?}"
         );
     }
 

@@ -9,6 +9,7 @@ pub mod peaks;
 pub mod quiet;
 pub mod refine;
 pub mod rise;
+mod voice;
 
 use crate::Error;
 use crate::units::{real, samples_in};

@@ -1,7 +1,8 @@
 //! Correlation with the mean impact of the drop: all of the sound says when it came.
 
 use super::Window;
-use super::interpolate::{KERNEL, interpolated, shifted};
+use super::interpolate::{KERNEL, maximum, shifted};
+use crate::detect::voice::dot;
 use crate::units::{real, samples_in};
 
 /// Where an impact matches the mean of the others, in samples of its window.
@@ -92,10 +93,7 @@ fn best(samples: &[f64], shape: &[f64], first: f64, search: usize) -> Option<Mat
     let reach = search + KERNEL;
     let start = base.checked_sub(reach)?;
     let needed = samples.get(start..base + reach + shape.len() + 1)?;
-    let products: Vec<f64> = needed
-        .windows(shape.len())
-        .map(|w| w.iter().zip(shape).map(|(a, b)| a * b).sum())
-        .collect();
+    let products: Vec<f64> = needed.windows(shape.len()).map(|w| dot(w, shape)).collect();
     let inside = KERNEL..products.len() - KERNEL;
     let top = inside.max_by(|&a, &b| products[a].total_cmp(&products[b]))?;
     let (offset, height) = maximum(&products, top);
@@ -118,23 +116,6 @@ fn best(samples: &[f64], shape: &[f64], first: f64, search: usize) -> Option<Mat
         position: real(start) + offset,
         std: noise / (amplitude * slopes.sqrt()),
     })
-}
-
-/// Maximum near index `top` of a band-limited sequence: bisection of the interval by thirds (golden section).
-fn maximum(values: &[f64], top: usize) -> (f64, f64) {
-    const GOLDEN: f64 = 0.618_033_988_749_894_9;
-    const STEPS: usize = 30;
-    let (mut a, mut b) = (real(top) - 1.0, real(top) + 1.0);
-    for _ in 0..STEPS {
-        let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
-        if interpolated(values, c) > interpolated(values, d) {
-            b = d;
-        } else {
-            a = c;
-        }
-    }
-    let x = 0.5 * (a + b);
-    (x, interpolated(values, x))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

@@ -16,9 +16,35 @@ pub fn interpolated(values: &[f64], position: f64) -> f64 {
 #[must_use]
 pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
     let (first, kernel) = kernel(position);
-    (0..length)
-        .map(|i| weighted(samples, first.saturating_add_unsigned(i), &kernel))
-        .collect()
+    let mut out = vec![0.0; length];
+    // Tap by tap over all samples: sums of neighbours then run side by side in the machine's vectors.
+    for (tap, weight) in kernel.iter().enumerate() {
+        let start = first.saturating_add_unsigned(tap);
+        let skip = usize::try_from(-start).unwrap_or(0).min(length);
+        let from = usize::try_from(start).unwrap_or(0).min(samples.len());
+        for (y, x) in out[skip..].iter_mut().zip(&samples[from..]) {
+            *y += weight * x;
+        }
+    }
+    out
+}
+
+/// Maximum near index `top` of a band-limited sequence: bisection of the interval by thirds (golden section).
+#[must_use]
+pub fn maximum(values: &[f64], top: usize) -> (f64, f64) {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    const STEPS: usize = 30;
+    let (mut a, mut b) = (real(top) - 1.0, real(top) + 1.0);
+    for _ in 0..STEPS {
+        let (c, d) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
+        if interpolated(values, c) > interpolated(values, d) {
+            b = d;
+        } else {
+            a = c;
+        }
+    }
+    let x = 0.5 * (a + b);
+    (x, interpolated(values, x))
 }
 
 /// A sinc under the window (1 − (x/K)²)² around a position, and the index that its first weight belongs to.

@@ -2,11 +2,13 @@
 //!
 //! The recording is first [whitened](mod@whiten), so that hum and rumble do not matter and the noise left is white. Then
 //! each impact is timed by a [constant fraction](mod@fraction) of its own rise, which does not walk with loudness, and by
-//! [correlation](mod@correlation) with the mean of the others, which uses all of its sound.
+//! [correlation](mod@correlation) with the mean of the others, which uses all of its sound. Where the sound of one
+//! reaches into the next, all of them are matched together.
 
 pub mod correlation;
 pub mod fraction;
 pub mod interpolate;
+mod overlap;
 pub mod whiten;
 
 use crate::units::{real, samples_in};
@@ -111,6 +113,11 @@ pub fn refine(
                     std_s: m.std / sample_rate_hz,
                 };
             }
+        }
+        let onsets: Vec<f64> = timed.iter().map(|t| t.time_s).collect();
+        let apart = overlap::times(samples, sample_rate_hz, &onsets, &whitener);
+        for (time, better) in timed.iter_mut().zip(apart.into_iter().flatten()) {
+            *time = better.unwrap_or(*time);
         }
     }
     timed

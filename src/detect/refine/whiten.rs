@@ -54,21 +54,25 @@ impl Whitener {
     #[must_use]
     pub fn apply(&self, samples: &[f32], start: usize, end: usize) -> Option<Vec<f64>> {
         let past = start.checked_sub(ORDER)?;
-        let needed = samples.get(past..end)?;
-        Some(
-            needed
-                .windows(ORDER + 1)
-                .map(|w| {
-                    let predicted: f64 = self
-                        .predictor
-                        .iter()
-                        .zip(w.iter().rev().skip(1))
-                        .map(|(a, &x)| a * f64::from(x))
-                        .sum();
-                    self.scale * (f64::from(w[ORDER]) - predicted)
-                })
-                .collect(),
-        )
+        let needed: Vec<f64> = samples
+            .get(past..end)?
+            .iter()
+            .copied()
+            .map(f64::from)
+            .collect();
+        let mut white: Vec<f64> = needed
+            .get(ORDER..)?
+            .iter()
+            .map(|x| self.scale * x)
+            .collect();
+        // Tap by tap over all samples, for the machine's vectors.
+        for (k, a) in self.predictor.iter().enumerate() {
+            let weight = self.scale * a;
+            for (y, x) in white.iter_mut().zip(&needed[ORDER - 1 - k..]) {
+                *y -= weight * x;
+            }
+        }
+        Some(white)
     }
 }
 
