@@ -82,6 +82,7 @@ const OUTSIDE: [&str; 6] = [
     "print!(",
 ];
 
+/// Source files, but for those that hold nothing but tests.
 fn sources(under: &Path) -> Vec<PathBuf> {
     if under.is_file() {
         return vec![under.to_path_buf()];
@@ -89,7 +90,7 @@ fn sources(under: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(under).unwrap_or_else(|e| panic!("{}: {e}", under.display()));
     entries
         .flat_map(|entry| sources(&entry.unwrap().path()))
-        .filter(|p| p.extension().is_some_and(|e| e == "rs"))
+        .filter(|p| p.extension().is_some_and(|e| e == "rs") && !p.ends_with("tests.rs"))
         .collect()
 }
 
