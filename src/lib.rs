@@ -15,6 +15,7 @@ pub mod analysis;
 pub mod cli;
 pub mod detect;
 pub mod error;
+pub mod evaluate;
 pub mod fit;
 pub mod physics;
 pub mod plot;

@@ -8,41 +8,46 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis ← cli.
-const FORBIDDEN: [(&str, &[&str]); 11] = [
+/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis, evaluate ← cli.
+const FORBIDDEN: [(&str, &[&str]); 12] = [
     (
         "physics",
         &[
-            "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+            "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "detect",
         &[
-            "physics", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+            "physics", "sequence", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "sequence",
-        &["detect", "fit", "wav", "report", "analysis", "synth", "cli"],
+        &[
+            "detect", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
+        ],
     ),
     (
         "fit",
         &[
-            "detect", "sequence", "wav", "report", "analysis", "synth", "cli",
+            "detect", "sequence", "wav", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "report",
-        &["physics", "sequence", "wav", "analysis", "synth", "cli"],
+        &[
+            "physics", "sequence", "wav", "analysis", "synth", "evaluate", "cli",
+        ],
     ),
     (
         "wav",
         &[
-            "physics", "detect", "sequence", "fit", "report", "analysis", "synth", "cli",
+            "physics", "detect", "sequence", "fit", "report", "analysis", "synth", "evaluate",
+            "cli",
         ],
     ),
-    ("analysis", &["wav", "synth", "cli"]),
+    ("analysis", &["wav", "synth", "evaluate", "cli"]),
     (
         "plot",
         &[
@@ -59,20 +64,28 @@ const FORBIDDEN: [(&str, &[&str]); 11] = [
     (
         "synth",
         &[
-            "detect", "sequence", "fit", "wav", "report", "analysis", "cli",
+            "detect", "sequence", "fit", "wav", "report", "analysis", "evaluate", "cli",
+        ],
+    ),
+    (
+        "evaluate",
+        &[
+            "physics", "detect", "sequence", "fit", "wav", "analysis", "synth", "cli",
         ],
     ),
     (
         "random.rs",
         &[
-            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "cli",
+            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "synth",
+            "evaluate", "cli",
         ],
     ),
 ];
 
 /// Folders that must build without a file system, threads or a terminal.
-const CORE: [&str; 9] = [
+const CORE: [&str; 10] = [
     "physics", "detect", "sequence", "fit", "report", "analysis", "plot", "solve", "synth",
+    "evaluate",
 ];
 const OUTSIDE: [&str; 6] = [
     "std::fs",
@@ -83,6 +96,7 @@ const OUTSIDE: [&str; 6] = [
     "print!(",
 ];
 
+/// Source files, but for those that hold nothing but tests.
 fn sources(under: &Path) -> Vec<PathBuf> {
     if under.is_file() {
         return vec![under.to_path_buf()];
@@ -90,7 +104,7 @@ fn sources(under: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(under).unwrap_or_else(|e| panic!("{}: {e}", under.display()));
     entries
         .flat_map(|entry| sources(&entry.unwrap().path()))
-        .filter(|p| p.extension().is_some_and(|e| e == "rs"))
+        .filter(|p| p.extension().is_some_and(|e| e == "rs") && !p.ends_with("tests.rs"))
         .collect()
 }
 

@@ -1,6 +1,8 @@
 //! The command line: parses, calls the library and says what to print. Files and standard input are touched here.
 
 mod analyze;
+mod evaluate;
+mod limit;
 mod solve;
 mod synth;
 
@@ -24,6 +26,7 @@ enum Command {
     Analyze(analyze::Arguments),
     Solve(solve::Arguments),
     Synth(synth::Arguments),
+    Evaluate(evaluate::Arguments),
 }
 
 /// What a command leaves behind.
@@ -44,6 +47,7 @@ pub fn run() -> Result<Outcome, Error> {
         Command::Analyze(arguments) => analyze::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Synth(arguments) => synth::run(&arguments),
+        Command::Evaluate(arguments) => evaluate::run(&arguments),
     }
 }
 

@@ -1,4 +1,4 @@
-//! `bounce-audio synth`: a recording made from the model, with its truth beside it.
+//! `bounce-audio synth`: recordings made from the model, with their truth beside them.
 
 use std::fs;
 use std::io::{self, ErrorKind};
@@ -8,56 +8,162 @@ use clap::Args;
 
 use super::Outcome;
 use crate::Error;
-use crate::synth::{Synthetic, render, scene};
+use crate::synth::presets::{self, preset};
+use crate::synth::recorder::Encoding;
+use crate::synth::scene::Scene;
+use crate::synth::{Synthetic, render};
+use crate::units::real;
 
 /// Make a recording of a bouncing ball from the model, and a .truth.json with its true impact times.
 #[derive(Debug, Args)]
-#[command(after_help = "Example:
-  bounce-audio synth --preset pingpong -o pingpong.wav")]
+#[command(after_help = "Examples:
+  bounce-audio synth --list
+  bounce-audio synth --preset pingpong -o pingpong.wav
+  bounce-audio synth my-scene.toml --seed 7 -o drop.wav
+  bounce-audio synth --suite suite --seeds 3")]
 pub(super) struct Arguments {
-    /// What to make: steel, pingpong, rubber, dead; or without a ball: silence, noise, tone, babble
-    #[arg(long)]
-    preset: String,
+    /// A scene as text; those of the presets are in fixtures/scenes
+    #[arg(value_name = "SCENE.toml")]
+    scene: Option<PathBuf>,
+    /// A scene that comes with the program
+    #[arg(long, conflicts_with = "scene")]
+    preset: Option<String>,
     /// Seed of the random numbers: the same seed makes the same recording
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// The WAV file to write; NAME.truth.json is written beside it
     #[arg(short, long, value_name = "OUT.wav")]
-    output: PathBuf,
+    output: Option<PathBuf>,
+    /// Say what presets there are
+    #[arg(long, conflicts_with_all = ["scene", "preset", "output", "suite"])]
+    list: bool,
+    /// Make all presets in a folder, each with several seeds
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "preset", "output"])]
+    suite: Option<PathBuf>,
+    /// How many seeds, from 1 up
+    #[arg(long, default_value_t = 3, requires = "suite")]
+    seeds: u64,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let made = render(&scene::preset(&arguments.preset)?, arguments.seed)?;
-    let truth_path = arguments.output.with_extension("truth.json");
-    write_wav(&arguments.output, &made).map_err(|e| e.in_file(&arguments.output))?;
-    let truth = serde_json::to_string_pretty(&made.truth).map_err(io::Error::from)? + "\n";
-    fs::write(&truth_path, truth).map_err(|e| Error::from(e).in_file(&truth_path))?;
-    let impacts: usize = made.truth.drops.iter().map(|d| d.impacts_s.len()).sum();
-    let output = format!(
-        "{}: {:.1} s, drops: {}, impacts: {impacts}\n{}: their true times\n",
-        arguments.output.display(),
-        crate::units::real(made.samples.len()) / f64::from(made.truth.sample_rate_hz),
-        made.truth.drops.len(),
-        truth_path.display(),
-    );
+    let output = if arguments.list {
+        list()?
+    } else if let Some(folder) = &arguments.suite {
+        make_suite(folder, arguments.seeds)?
+    } else {
+        make_one(arguments)?
+    };
     Ok(Outcome { output, status: 0 })
 }
 
+fn list() -> Result<String, Error> {
+    let mut text = String::new();
+    for name in presets::names() {
+        text += &format!("{name:<12} {}\n", preset(name)?.about);
+    }
+    Ok(text)
+}
+
+fn make_suite(folder: &Path, seeds: u64) -> Result<String, Error> {
+    fs::create_dir_all(folder).map_err(|e| Error::from(e).in_file(folder))?;
+    let mut made = 0;
+    for name in presets::names() {
+        let scene = preset(name)?;
+        for seed in 1..=seeds {
+            write(
+                &folder.join(format!("{name}-{seed}.wav")),
+                &render(&scene, seed)?,
+            )?;
+            made += 1;
+        }
+    }
+    let scenes = presets::names().count();
+    Ok(format!(
+        "{}: {made} recordings of {scenes} scenes\n",
+        folder.display()
+    ))
+}
+
+fn make_one(arguments: &Arguments) -> Result<String, Error> {
+    let made = render(&scene(arguments)?, arguments.seed)?;
+    let path = arguments
+        .output
+        .as_ref()
+        .ok_or_else(|| missing("--output", "a WAV file to write"))?;
+    let truth_path = write(path, &made)?;
+    let impacts: usize = made.truth.drops.iter().map(|d| d.impacts_s.len()).sum();
+    Ok(format!(
+        "{}: {:.1} s, drops: {}, impacts: {impacts}\n{}: their true times\n",
+        path.display(),
+        real(made.samples.len()) / f64::from(made.truth.sample_rate_hz),
+        made.truth.drops.len(),
+        truth_path.display(),
+    ))
+}
+
+fn scene(arguments: &Arguments) -> Result<Scene, Error> {
+    match (&arguments.scene, &arguments.preset) {
+        (Some(path), _) => {
+            let text = fs::read_to_string(path).map_err(|e| Error::from(e).in_file(path))?;
+            Scene::from_toml(&text).map_err(|e| e.in_file(path))
+        }
+        (None, Some(name)) => preset(name),
+        (None, None) => Err(missing("scene", "a SCENE.toml or --preset NAME")),
+    }
+}
+
+fn missing(argument: &'static str, expected: &'static str) -> Error {
+    Error::Argument {
+        argument,
+        got: "absent".to_owned(),
+        expected,
+    }
+}
+
+/// Writes a recording and its truth; gives where the truth is.
+fn write(path: &Path, made: &Synthetic) -> Result<PathBuf, Error> {
+    write_wav(path, made).map_err(|e| e.in_file(path))?;
+    let truth_path = path.with_extension("truth.json");
+    let truth = serde_json::to_string_pretty(&made.truth).map_err(io::Error::from)? + "\n";
+    fs::write(&truth_path, truth).map_err(|e| Error::from(e).in_file(&truth_path))?;
+    Ok(truth_path)
+}
+
 fn write_wav(path: &Path, made: &Synthetic) -> Result<(), Error> {
+    let encoding = made.truth.parameters.recorder.encoding;
+    let channels: Vec<&Vec<f32>> = [&made.samples]
+        .into_iter()
+        .chain(&made.more_channels)
+        .collect();
     let spec = hound::WavSpec {
-        channels: 1,
+        channels: u16::try_from(channels.len()).unwrap_or(u16::MAX),
         sample_rate: made.truth.sample_rate_hz,
-        bits_per_sample: 16,
-        sample_format: hound::SampleFormat::Int,
+        bits_per_sample: encoding.bits(),
+        sample_format: match encoding {
+            Encoding::Float32 => hound::SampleFormat::Float,
+            _ => hound::SampleFormat::Int,
+        },
     };
     let mut writer = hound::WavWriter::create(path, spec).map_err(from_hound)?;
-    for &x in &made.samples {
-        #[expect(clippy::cast_possible_truncation, reason = "samples lie in ±1")]
-        writer
-            .write_sample((f64::from(x) * 32_767.0).round() as i16)
+    for frame in 0..made.samples.len() {
+        for channel in &channels {
+            match encoding {
+                Encoding::Float32 => writer.write_sample(channel[frame]),
+                _ => writer.write_sample(whole(channel[frame], encoding)),
+            }
             .map_err(from_hound)?;
+        }
     }
     writer.finalize().map_err(from_hound)
+}
+
+/// The integer of a sample that is already a whole number of steps.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "`as` saturates, and only full scale of 32 bits is rounded up to its limit"
+)]
+fn whole(x: f32, encoding: Encoding) -> i32 {
+    (f64::from(x) * f64::from(encoding.bits() - 1).exp2()).round() as i32
 }
 
 fn from_hound(error: hound::Error) -> Error {

@@ -1,34 +1,43 @@
 //! Recordings made from the model, with their true impact times beside them.
 //!
 //! [`scene`] says what is dropped and how it is recorded, [`sound`] gives one impact's sound in closed form at any
-//! instant, [`noise`] what is heard besides. The same scene and seed give the same samples on every machine.
+//! instant, [`room`] its reflections, [`ambience`] and [`bursts`] what is heard besides, [`recorder`] what becomes of it,
+//! [`hearing`] what can be made out. The same scene and seed give the same samples on every machine: all functions come
+//! from `libm`, all random numbers from [`crate::random`].
 
-pub mod noise;
+pub mod ambience;
+mod babble;
+pub mod bursts;
+mod drops;
+pub mod hearing;
+pub mod presets;
+pub mod recorder;
+pub mod room;
 pub mod scene;
 pub mod sound;
 pub mod truth;
 
 use crate::Error;
-use crate::physics::{Air, Impact, Sphere};
-use crate::physics::{Bounce, DropSetup, FlightLaw, Restitution, RestitutionLaw, Scatter};
 use crate::random::SplitMix64;
 use crate::units::{real, samples_in};
-use scene::{DropScene, Scene};
+use drops::{Dropped, Strike};
+use hearing::{Background, Heard};
+use recorder::Channel;
+use room::Room;
+use scene::Scene;
+use sound::Rendered;
 use truth::{DropTruth, Truth};
 
 /// A recording made from a scene.
 #[derive(Debug, Clone)]
 pub struct Synthetic {
-    /// Samples of full scale ±1, not yet rounded to the recorder's bits.
+    /// Samples of the first channel, full scale being ±1, as the recorder stores them.
     pub samples: Vec<f32>,
+    /// Those of the other channels.
+    pub more_channels: Vec<Vec<f32>>,
     /// What is true about them.
     pub truth: Truth,
 }
-
-/// Flights shorter than this are not made: the drop ends there.
-const SHORTEST_FLIGHT_S: f64 = 1e-3;
-/// Gravity of all scenes.
-const GRAVITY_M_PER_S2: f64 = 9.81;
 
 /// Makes the recording of a scene.
 ///
@@ -37,99 +46,213 @@ const GRAVITY_M_PER_S2: f64 = 9.81;
 pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
     scene.check()?;
     let mut rng = SplitMix64::new(seed);
+    // The room, and what all channels hear alike, have streams of their own.
+    let mut surroundings = SplitMix64::new(!seed);
     let rate = f64::from(scene.sample_rate_hz);
-    let mut samples = vec![0.0; samples_in(scene.duration_s, rate)];
-    let mut drops = Vec::new();
-    for drop in &scene.drops {
-        drops.push(add_drop(drop, scene, rate, &mut rng, &mut samples)?);
-    }
-    // All drops are scaled alike, so that the loudest impact peaks where the scene wants it.
-    let peak = samples.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let gain = if peak > 0.0 {
-        decibels(scene.peak_db) / peak
-    } else {
-        0.0
+    let end_s = scene.recorder.stop_s.unwrap_or(scene.duration_s);
+    let count = samples_in(end_s - scene.recorder.start_s, rate);
+    let drops: Vec<Dropped> = (0..scene.drops.len())
+        .map(|index| drops::drop(scene, index, &mut rng))
+        .collect::<Result<_, _>>()?;
+    let mut strikes: Vec<&Strike> = drops.iter().flat_map(|d| &d.strikes).collect();
+    strikes.sort_by(|a, b| a.arrival_s.total_cmp(&b.arrival_s));
+    let stage = Stage {
+        scene,
+        rate,
+        count,
+        gain: gain(&strikes, rate, decibels(scene.peak_db)),
+        room: SplitMix64::new(surroundings.next_u64()),
+        shared: SplitMix64::new(surroundings.next_u64()),
     };
-    let noise = noise::render(&scene.noise, samples.len(), rate, &mut rng);
-    for drop in &mut drops {
-        drop.scale(gain, decibels(scene.noise.white_db));
+    let mut heard = vec![Heard::NOTHING; strikes.len()];
+    let mut channels = Vec::new();
+    for channel in &scene.recorder.channels {
+        let (sound, here) = stage.listen(*channel, &strikes, rng);
+        rng = SplitMix64::new(surroundings.next_u64());
+        channels.push(sound);
+        heard = heard.iter().zip(here).map(|(a, b)| a.or(b)).collect();
     }
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "samples are f32 from here on"
-    )]
-    let samples = samples
-        .iter()
-        .zip(&noise)
-        .map(|(s, n)| (gain * s + n).clamp(-1.0, 1.0) as f32)
-        .collect();
+    let truths = (0..drops.len()).map(|index| {
+        let own = strikes.iter().zip(&heard).filter(|(s, _)| s.drop == index);
+        stage.truth(
+            &drops[index],
+            &own.map(|(s, h)| (*s, *h)).collect::<Vec<_>>(),
+        )
+    });
+    let truth = Truth {
+        scene: scene.name.clone(),
+        seed,
+        sample_rate_hz: scene.sample_rate_hz,
+        duration_s: real(count) / rate,
+        drops: truths.collect(),
+        parameters: scene.clone(),
+    };
+    let mut recorded = scene.recorder.record(&channels, rate).into_iter();
     Ok(Synthetic {
-        samples,
-        truth: Truth {
-            scene: scene.name.clone(),
-            seed,
-            sample_rate_hz: scene.sample_rate_hz,
-            drops,
-        },
+        samples: recorded.next().unwrap_or_default(),
+        more_channels: recorded.collect(),
+        truth,
     })
 }
 
-/// Adds the sound of one drop, echoes included, and tells what is true of it.
-fn add_drop(
-    drop: &DropScene,
-    scene: &Scene,
-    rate: f64,
-    rng: &mut SplitMix64,
-    samples: &mut [f64],
-) -> Result<DropTruth, Error> {
-    let impacts: Vec<Impact> = setup(drop, rng.next_u64())?.impacts()?.collect();
-    let first_s = impacts.first().map_or(0.0, |i| i.time_s);
-    // The first impact falls between two samples, elsewhere for every seed.
-    let shift_s = drop.first_impact_s + rng.uniform() / rate - first_s;
-    let sound = sound::Sound::new(&drop.modes, drop.contact_time_s);
-    let mut truth = DropTruth::new(drop, &impacts, shift_s);
-    for impact in &impacts {
-        let levels: Vec<f64> = drop
-            .modes
-            .iter()
-            .map(|_| impact.impact_speed_m_per_s * libm::exp(drop.level_scatter * rng.normal()))
-            .collect();
-        let voice = sound.with_levels(&levels);
-        let energy = voice.add(samples, rate, impact.time_s + shift_s, 1.0);
-        truth.energies.push(energy);
-        for echo in &scene.echoes {
-            voice.add(
-                samples,
-                rate,
-                impact.time_s + shift_s + echo.delay_s,
-                decibels(echo.level_db),
-            );
-        }
-    }
-    Ok(truth)
+/// The factor that brings the loudest impact to a peak; 0 if there is none to be heard.
+fn gain(strikes: &[&Strike], rate: f64, peak: f64) -> f64 {
+    let peaks = strikes
+        .iter()
+        .map(|s| s.sound.render(rate, s.arrival_s, 1.0).peak());
+    let loudest = peaks.fold(0.0, f64::max);
+    if loudest > 0.0 { peak / loudest } else { 0.0 }
 }
 
-fn setup(drop: &DropScene, seed: u64) -> Result<DropSetup, Error> {
-    let flight = if drop.drag {
-        let sphere = Sphere {
-            mass_kg: drop.mass_kg,
-            diameter_m: drop.diameter_m,
+/// A scene about to be recorded.
+struct Stage<'a> {
+    scene: &'a Scene,
+    rate: f64,
+    /// Samples of the recording.
+    count: usize,
+    gain: f64,
+    room: SplitMix64,
+    shared: SplitMix64,
+}
+
+impl Stage<'_> {
+    /// The sound at one microphone, and how each impact stands out there.
+    fn listen(
+        &self,
+        channel: Channel,
+        strikes: &[&Strike],
+        own: SplitMix64,
+    ) -> (Vec<f64>, Vec<Heard>) {
+        let noise = &self.scene.noise;
+        let mut ambience = noise.render(self.count, self.rate, own, self.shared);
+        let steady = self.steady_autocorrelation(&ambience.steady);
+        let room = Room::new(&self.scene.echoes, self.scene.tail, self.rate, self.room);
+        let gain = self.gain * channel.gain();
+        let mut heard = Vec::with_capacity(strikes.len());
+        // In order of time, so that an impact is heard against what came before it and not against its own echoes.
+        for (i, strike) in strikes.iter().enumerate() {
+            let onset_s = strike.arrival_s + channel.delay_s;
+            let direct = strike.sound.render(self.rate, onset_s, gain);
+            let next = strikes.get(i + 1).map(|s| s.arrival_s + channel.delay_s);
+            let until = next.map_or(self.count, |s| samples_in(s, self.rate));
+            heard.push(self.hear(&direct, until, &ambience, &steady));
+            let passing = &mut ambience.bursts;
+            direct.add_to(passing, 0, 1.0);
+            room.add(&strike.sound, &direct, onset_s, gain, self.rate, passing);
+        }
+        let sum = ambience.steady.iter().zip(&ambience.bursts);
+        (sum.map(|(a, b)| a + b).collect(), heard)
+    }
+
+    fn hear(
+        &self,
+        direct: &Rendered,
+        until: usize,
+        ambience: &ambience::Ambience,
+        steady: &[f64; hearing::LAGS],
+    ) -> Heard {
+        let (Ok(first), until) = (usize::try_from(direct.first), until.min(self.count)) else {
+            return Heard::NOTHING;
         };
-        FlightLaw::in_air(GRAVITY_M_PER_S2, sphere, Air::default())?
-    } else {
-        FlightLaw::without_air(GRAVITY_M_PER_S2)?
+        if first >= until {
+            return Heard::NOTHING;
+        }
+        let mut all = ambience.steady[first..until].to_vec();
+        for (x, y) in all.iter_mut().zip(&ambience.bursts[first..until]) {
+            *x += y;
+        }
+        let background = Background {
+            all: &all,
+            passing: &ambience.bursts[first..until],
+            steady,
+            full_scale: self.full_scale(),
+        };
+        hearing::hear(direct, background)
+    }
+
+    /// Pressure at which the recorder is at full scale.
+    fn full_scale(&self) -> f64 {
+        let recorder = &self.scene.recorder;
+        match recorder.encoding.steps() {
+            Some(_) if recorder.soft_limit_db.is_none() && recorder.automatic_gain.is_none() => {
+                (1.0 - recorder.dc_offset.abs()) / decibels(recorder.gain_db)
+            }
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Of the steady noise, with that of rounding to the recorder's steps: a twelfth of a step's square.
+    fn steady_autocorrelation(&self, steady: &[f64]) -> [f64; hearing::LAGS] {
+        let recorder = &self.scene.recorder;
+        // Floating point has no steps, but no microphone is below -180 dB.
+        let step = recorder.encoding.steps().map_or(1e-9, |steps| 1.0 / steps);
+        let step = step / decibels(recorder.gain_db);
+        let mut correlation = ambience::autocorrelation(steady);
+        correlation[0] += step * step / 12.0;
+        correlation
+    }
+
+    /// What is true of a drop, given its impacts as they were heard.
+    fn truth(&self, dropped: &Dropped, own: &[(&Strike, Heard)]) -> DropTruth {
+        let end_s = real(self.count) / self.rate;
+        let delay_s = self
+            .scene
+            .recorder
+            .channels
+            .first()
+            .map_or(0.0, |c| c.delay_s);
+        let onset_s = |s: &Strike| s.arrival_s + delay_s;
+        let before = own.iter().filter(|(s, _)| onset_s(s) < 0.0).count();
+        let after = own.iter().filter(|(s, _)| onset_s(s) >= end_s).count();
+        let within = &own[before..own.len() - after];
+        let audible: Vec<bool> = within
+            .iter()
+            .enumerate()
+            .map(|(i, (s, heard))| {
+                let since = i
+                    .checked_sub(1)
+                    .map(|last| s.touch_s - within[last].0.touch_s);
+                heard.is_audible(since.unwrap_or(f64::INFINITY), dropped.contact_time_s)
+            })
+            .collect();
+        let list = |of: fn(&Strike) -> f64| within.iter().map(|(s, _)| of(s)).collect::<Vec<_>>();
+        let (speeds, nominal) = (list(|s| s.impact.impact_speed_m_per_s), list(|s| s.nominal));
+        let first = own
+            .first()
+            .map(|(s, _)| s.sound.render(self.rate, s.arrival_s, 1.0));
+        DropTruth {
+            impacts_s: list(|s| s.touch_s),
+            onsets_s: within.iter().map(|(s, _)| onset_s(s)).collect(),
+            energy_to_noise_db: within.iter().map(|(_, h)| h.energy_to_noise_db).collect(),
+            timing_limit_s: within.iter().map(|(_, h)| h.timing_limit_s).collect(),
+            restitution: typical(&nominal, &audible),
+            audible,
+            restitution_nominal_each: nominal,
+            restitution_each: list(|s| s.impact.restitution()),
+            speeds_m_per_s: speeds,
+            impacts_before: before,
+            impacts_after: after,
+            height_m: dropped.height_m,
+            contact_time_s: dropped.contact_time_s,
+            period_s: first.map_or(0.0, |sound| 1.0 / sound.frequency_hz()),
+        }
+    }
+}
+
+/// Geometric mean of what is audible; of everything, if nothing is.
+fn typical(values: &[f64], audible: &[bool]) -> f64 {
+    let any = audible.contains(&true);
+    let all = values.iter().zip(audible);
+    let chosen: Vec<f64> = all
+        .filter(|(v, audible)| **v > 0.0 && (**audible || !any))
+        .map(|(v, _)| *v)
+        .collect();
+    let Some(&first) = chosen.first() else {
+        return 0.0;
     };
-    let bounce = Bounce::Given {
-        restitution: RestitutionLaw::Constant(Restitution::new(drop.restitution)?),
-        contact_time_s: drop.contact_time_s,
-    };
-    let mut setup = DropSetup::new(drop.height_m, flight, bounce);
-    setup.shortest_flight_s = Some(SHORTEST_FLIGHT_S);
-    setup.scatter = Some(Scatter {
-        ln_restitution_std: drop.bounce_scatter,
-        seed,
-    });
-    Ok(setup)
+    // Relative to the first, so that a constant comes out as it went in.
+    let logs = chosen.iter().map(|v| libm::log(v / first));
+    first * libm::exp(logs.sum::<f64>() / real(chosen.len()))
 }
 
 /// `10^(x/20)`.
@@ -142,46 +265,24 @@ fn instant_s(sample: usize, rate: f64) -> f64 {
     real(sample) / rate
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// A sample and its time.
+struct SampleAt {
+    index: i64,
+    instant_s: f64,
+}
 
-    #[test]
-    fn the_same_seed_gives_the_same_samples_and_another_seed_others() {
-        let scene = scene::preset("pingpong").unwrap();
-        let (a, b, c) = (
-            render(&scene, 1).unwrap(),
-            render(&scene, 1).unwrap(),
-            render(&scene, 2).unwrap(),
-        );
-        assert!(a.samples == b.samples && a.samples != c.samples);
-        assert_eq!(a.truth.drops[0].impacts_s, b.truth.drops[0].impacts_s);
-    }
-
-    #[test]
-    fn the_loudest_sample_is_where_the_scene_wants_it() {
-        let scene = scene::preset("steel").unwrap();
-        let peak = render(&scene, 1)
-            .unwrap()
-            .samples
-            .iter()
-            .fold(0.0_f32, |m, x| m.max(x.abs()));
-        assert!((20.0 * f64::from(peak).log10() - scene.peak_db).abs() < 0.2);
-    }
-
-    #[test]
-    fn nothing_is_heard_before_the_first_impact() {
-        let mut scene = scene::preset("rubber").unwrap();
-        scene.noise.white_db = f64::NEG_INFINITY;
-        let made = render(&scene, 3).unwrap();
-        let first = made.truth.drops[0].impacts_s[0];
-        let sample =
-            samples_in(first.floor(), 1.0) + samples_in(first, f64::from(scene.sample_rate_hz));
-        assert!(made.samples[..sample - 2].iter().all(|&x| x == 0.0));
-        assert!(
-            made.samples[sample + 20..sample + 60]
-                .iter()
-                .any(|&x| x.abs() > 1e-3)
-        );
+/// The first sample after a time, which may lie before the recording.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "`as` saturates, and scenes end within a day"
+)]
+fn sample_after(time_s: f64, rate: f64) -> SampleAt {
+    let whole = libm::floor(time_s * rate) + 1.0;
+    SampleAt {
+        index: whole as i64,
+        instant_s: whole / rate,
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,55 +1,149 @@
-//! Scenes: what is dropped, what it sounds like, and how it is recorded.
+//! Scenes: what is dropped, what it sounds like, and how it is recorded. Written as TOML; every field says its unit.
 
+use serde::{Deserialize, Serialize};
+
+use super::ambience::Noise;
+use super::recorder::Recorder;
+use super::room::{Echo, Tail};
 use crate::Error;
 
+pub use super::presets::preset;
+
 /// A whole recording to be made.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Scene {
     /// Its name.
     pub name: String,
-    /// Samples per second.
+    /// What it is there to show, in a sentence.
+    #[serde(default)]
+    pub about: String,
+    /// Samples per second, 1,000 to 768,000. Default 44,100.
+    #[serde(default = "default_sample_rate_hz")]
     pub sample_rate_hz: u32,
-    /// Length in seconds.
+    /// Length in seconds, before a late start or an early stop of the recorder.
     pub duration_s: f64,
-    /// The loudest impact's peak in dB below full scale.
+    /// The loudest impact's peak at the recorder's input in dB below full scale, alone and before its gain. Default −3.
+    #[serde(default = "default_peak_db")]
     pub peak_db: f64,
+    /// Gravity in m/s². Default 9.81.
+    #[serde(default = "default_gravity")]
+    pub gravity_m_per_s2: f64,
     /// The drops; none for recordings that hold none.
+    #[serde(default)]
     pub drops: Vec<DropScene>,
-    /// Reflections of every impact.
+    /// Early reflections of every impact.
+    #[serde(default)]
     pub echoes: Vec<Echo>,
+    /// The diffuse end of the room's answer, if it has one.
+    #[serde(default)]
+    pub tail: Option<Tail>,
     /// What else is heard.
+    #[serde(default)]
     pub noise: Noise,
+    /// How it is recorded.
+    #[serde(default)]
+    pub recorder: Recorder,
 }
 
 /// One drop.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct DropScene {
     /// From the ball's lowest point to the surface, in metres.
     pub height_m: f64,
-    /// When it first hits, in seconds from the start of the recording.
+    /// Each seed drops it from another height within this share of `height_m`, up or down. Default 0.
+    #[serde(default)]
+    pub height_spread: f64,
+    /// When it first hits, in seconds from the start of the scene, up to a sample more: elsewhere for every seed.
     pub first_impact_s: f64,
     /// Mass in kilograms.
     pub mass_kg: f64,
     /// Diameter in metres.
     pub diameter_m: f64,
-    /// Whether the air slows it.
+    /// Whether the air slows it. Default no.
+    #[serde(default)]
     pub drag: bool,
-    /// e of every impact, before scatter.
-    pub restitution: f64,
-    /// Standard deviation of ln e from bounce to bounce.
+    /// What happens at an impact.
+    pub bounce: BounceScene,
+    /// Standard deviation of ln e from bounce to bounce. Default 0.
+    #[serde(default)]
     pub bounce_scatter: f64,
-    /// Contact time in seconds, of every impact.
-    pub contact_time_s: f64,
-    /// What rings.
+    /// The ball is caught after this impact. Default: never.
+    #[serde(default)]
+    pub most_impacts: Option<usize>,
+    /// Distance to the microphone at the first impact, in metres: the sound comes later by 2.9 ms per metre. Its level
+    /// is `peak_db` whatever the distance. Default 0.
+    #[serde(default)]
+    pub microphone_distance_m: f64,
+    /// Speed at which the ball rolls away from the microphone, in m/s: the delay grows, the level falls. Default 0.
+    #[serde(default)]
+    pub leaving_m_per_s: f64,
+    /// What rings, ball and surface.
     pub modes: Vec<Mode>,
-    /// Standard deviation of ln level of each mode from impact to impact.
+    /// Standard deviation of ln level of each mode from impact to impact. Default 0.
+    #[serde(default)]
     pub level_scatter: f64,
+    /// Standard deviation of ln level of whole impacts. Default 0.
+    #[serde(default)]
+    pub loudness_scatter: f64,
+    /// The force lasts as (v/v₁)^this: −0.2 for a solid sphere (Hertz). It changes the sound, not the flights. Default 0.
+    #[serde(default)]
+    pub contact_exponent: f64,
+}
+
+/// What happens at an impact: one of the laws of [`crate::physics`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case", deny_unknown_fields)]
+pub enum BounceScene {
+    /// The same e and contact time at every impact; rest by the paper's (19).
+    Constant {
+        /// e.
+        restitution: f64,
+        /// ΔT in seconds.
+        contact_time_s: f64,
+    },
+    /// The linear ball with its weight, from e and ΔT of a fast impact.
+    Linear {
+        /// e without weight.
+        restitution: f64,
+        /// ΔT without weight, in seconds.
+        contact_time_s: f64,
+    },
+    /// The linear ball with its weight, from k and c.
+    Spring {
+        /// k.
+        stiffness_n_per_m: f64,
+        /// c.
+        damping_n_s_per_m: f64,
+    },
+    /// `e = 1 − γ₁v^(1/5) + γ₂v^(2/5)`.
+    Viscoelastic {
+        /// γ₁.
+        gamma1: f64,
+        /// γ₂.
+        gamma2: f64,
+        /// ΔT in seconds.
+        contact_time_s: f64,
+    },
+    /// `e = e_y·(max(v, v_y)/v_y)^(−p)`.
+    Power {
+        /// e below the yield speed.
+        restitution: f64,
+        /// `v_y`.
+        yield_speed_m_per_s: f64,
+        /// p.
+        exponent: f64,
+        /// ΔT in seconds.
+        contact_time_s: f64,
+    },
 }
 
 /// A damped oscillation that an impact sets off.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Mode {
-    /// Frequency in Hz.
+    /// Frequency in Hz. Above 0.45 of the sample rate it is left out, as a recorder's filter does.
     pub frequency_hz: f64,
     /// Time in which it falls to 1/e, in seconds.
     pub decay_s: f64,
@@ -57,233 +151,148 @@ pub struct Mode {
     pub level: f64,
 }
 
-/// A reflection.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Echo {
-    /// Seconds after the direct sound.
-    pub delay_s: f64,
-    /// dB relative to the direct sound.
-    pub level_db: f64,
+const fn default_sample_rate_hz() -> u32 {
+    44_100
 }
 
-/// What is heard besides impacts. Levels in dB of full scale; minus infinity is none.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Noise {
-    /// White noise, rms.
-    pub white_db: f64,
-    /// A steady tone, rms, and its frequency in Hz.
-    pub tone_db: f64,
-    /// Frequency of the tone.
-    pub tone_hz: f64,
-    /// Speech-like bursts, rms of a syllable.
-    pub babble_db: f64,
+const fn default_peak_db() -> f64 {
+    -3.0
 }
 
-/// Names of the presets.
-pub const PRESETS: [&str; 8] = [
-    "steel", "pingpong", "rubber", "dead", "silence", "noise", "tone", "babble",
-];
-
-const NONE: f64 = f64::NEG_INFINITY;
-const QUIET: Noise = Noise {
-    white_db: -70.0,
-    tone_db: NONE,
-    tone_hz: 1_000.0,
-    babble_db: NONE,
-};
-
-/// The scene of this name.
-///
-/// # Errors
-/// [`Error::Argument`] if there is none, with the names that there are.
-pub fn preset(name: &str) -> Result<Scene, Error> {
-    match name {
-        "steel" => Ok(with_drop(name, steel(), 4.0, &[])),
-        "pingpong" => Ok(with_drop(
-            name,
-            ping_pong(),
-            7.0,
-            &[Echo {
-                delay_s: 10.3e-3,
-                level_db: -10.0,
-            }],
-        )),
-        "rubber" => Ok(with_drop(name, rubber(), 4.0, &[])),
-        "dead" => Ok(with_drop(name, dead(), 3.0, &[])),
-        "silence" => Ok(without_drop(
-            name,
-            Noise {
-                white_db: NONE,
-                ..QUIET
-            },
-        )),
-        "noise" => Ok(without_drop(
-            name,
-            Noise {
-                white_db: -30.0,
-                ..QUIET
-            },
-        )),
-        "tone" => Ok(without_drop(
-            name,
-            Noise {
-                tone_db: -12.0,
-                ..QUIET
-            },
-        )),
-        "babble" => Ok(without_drop(
-            name,
-            Noise {
-                babble_db: -20.0,
-                ..QUIET
-            },
-        )),
-        _ => Err(Error::Argument {
-            argument: "--preset",
-            got: format!("'{name}'"),
-            expected: "steel, pingpong, rubber, dead, silence, noise, tone or babble",
-        }),
-    }
-}
-
-fn with_drop(name: &str, drop: DropScene, duration_s: f64, echoes: &[Echo]) -> Scene {
-    Scene {
-        name: name.to_owned(),
-        sample_rate_hz: 44_100,
-        duration_s,
-        peak_db: -3.0,
-        drops: vec![drop],
-        echoes: echoes.to_vec(),
-        noise: QUIET,
-    }
-}
-
-fn without_drop(name: &str, noise: Noise) -> Scene {
-    Scene {
-        name: name.to_owned(),
-        sample_rate_hz: 44_100,
-        duration_s: 10.0,
-        peak_db: -3.0,
-        drops: Vec::new(),
-        echoes: Vec::new(),
-        noise,
-    }
-}
-
-const fn mode(frequency_hz: f64, decay_s: f64, level: f64) -> Mode {
-    Mode {
-        frequency_hz,
-        decay_s,
-        level,
-    }
-}
-
-/// A 20 mm ball bearing on a thick plate.
-fn steel() -> DropScene {
-    DropScene {
-        height_m: 0.15,
-        first_impact_s: 0.6,
-        mass_kg: 0.0327,
-        diameter_m: 0.020,
-        drag: false,
-        restitution: 0.90,
-        bounce_scatter: 0.003,
-        contact_time_s: 0.08e-3,
-        modes: vec![
-            mode(5_200.0, 6e-3, 1.0),
-            mode(9_700.0, 4e-3, 0.8),
-            mode(14_300.0, 2e-3, 0.6),
-        ],
-        level_scatter: 0.1,
-    }
-}
-
-/// A table-tennis ball of today on a table.
-fn ping_pong() -> DropScene {
-    DropScene {
-        height_m: 0.305,
-        first_impact_s: 0.7,
-        mass_kg: 0.0027,
-        diameter_m: 0.040,
-        drag: true,
-        restitution: 0.93,
-        bounce_scatter: 0.004,
-        contact_time_s: 0.7e-3,
-        modes: vec![
-            mode(1_300.0, 8e-3, 1.0),
-            mode(6_800.0, 3e-3, 0.5),
-            mode(9_400.0, 4e-3, 0.5),
-        ],
-        level_scatter: 0.15,
-    }
-}
-
-/// A solid rubber ball on a floor.
-fn rubber() -> DropScene {
-    DropScene {
-        height_m: 0.5,
-        first_impact_s: 0.8,
-        mass_kg: 0.060,
-        diameter_m: 0.045,
-        drag: false,
-        restitution: 0.75,
-        bounce_scatter: 0.006,
-        contact_time_s: 1.5e-3,
-        modes: vec![
-            mode(320.0, 12e-3, 1.0),
-            mode(780.0, 7e-3, 0.7),
-            mode(2_100.0, 3e-3, 0.5),
-        ],
-        level_scatter: 0.1,
-    }
-}
-
-/// A ball that hardly bounces: five impacts can be told apart.
-fn dead() -> DropScene {
-    DropScene {
-        height_m: 0.1,
-        first_impact_s: 1.0,
-        mass_kg: 0.050,
-        diameter_m: 0.040,
-        drag: false,
-        restitution: 0.40,
-        bounce_scatter: 0.005,
-        contact_time_s: 1e-3,
-        modes: vec![
-            mode(380.0, 6e-3, 1.0),
-            mode(1_100.0, 4e-3, 0.7),
-            mode(2_600.0, 2e-3, 0.5),
-        ],
-        level_scatter: 0.1,
-    }
+const fn default_gravity() -> f64 {
+    9.81
 }
 
 impl Scene {
-    /// Whether all numbers are in range.
+    /// Reads a scene.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] saying where the text is not a scene, or which number is out of range.
+    pub fn from_toml(text: &str) -> Result<Self, Error> {
+        let scene: Self = toml::from_str(text).map_err(|e| Error::Argument {
+            argument: "scene",
+            got: e.to_string().trim_end().to_owned(),
+            expected: "a scene as those in fixtures/scenes",
+        })?;
+        scene.check()?;
+        Ok(scene)
+    }
+
+    /// Whether all numbers are in range. Those of the physics are checked where they are used.
     pub(super) fn check(&self) -> Result<(), Error> {
-        if self.sample_rate_hz < 1_000 {
-            return Err(Error::argument(
-                "sample_rate_hz",
-                f64::from(self.sample_rate_hz),
-                "1000 or more",
-            ));
-        }
-        if !(self.duration_s.is_finite() && self.duration_s > 0.0 && self.duration_s < 86_400.0) {
-            return Err(Error::argument(
-                "duration_s",
-                self.duration_s,
-                "above 0 s and below a day",
-            ));
-        }
+        let rate = f64::from(self.sample_rate_hz);
+        within("sample_rate_hz", rate, 1e3..=768e3, "1000 to 768000")?;
+        within(
+            "duration_s",
+            self.duration_s,
+            1e-3..=86_400.0,
+            "1 ms to a day",
+        )?;
+        within("peak_db", self.peak_db, -200.0..=40.0, "-200 to 40")?;
         for drop in &self.drops {
-            if !(drop.first_impact_s >= 0.0 && drop.first_impact_s < self.duration_s) {
-                return Err(Error::argument(
-                    "first_impact_s",
-                    drop.first_impact_s,
-                    "a time within the recording",
-                ));
-            }
+            drop.check(self.duration_s)?;
+        }
+        for echo in &self.echoes {
+            echo.check()?;
+        }
+        self.tail.map_or(Ok(()), |tail| tail.check())?;
+        self.noise.check()?;
+        self.recorder.check(self.duration_s)
+    }
+}
+
+impl DropScene {
+    fn check(&self, duration_s: f64) -> Result<(), Error> {
+        let any = 0.0..=f64::MAX;
+        within(
+            "first_impact_s",
+            self.first_impact_s,
+            0.0..=duration_s,
+            "a time within the recording",
+        )?;
+        within("height_spread", self.height_spread, 0.0..=0.9, "0 to 0.9")?;
+        within("level_scatter", self.level_scatter, 0.0..=3.0, "0 to 3")?;
+        within(
+            "loudness_scatter",
+            self.loudness_scatter,
+            0.0..=3.0,
+            "0 to 3",
+        )?;
+        within(
+            "contact_exponent",
+            self.contact_exponent,
+            -1.0..=1.0,
+            "-1 to 1",
+        )?;
+        within(
+            "microphone_distance_m",
+            self.microphone_distance_m,
+            any.clone(),
+            "0 m or more",
+        )?;
+        within(
+            "leaving_m_per_s",
+            self.leaving_m_per_s,
+            0.0..=30.0,
+            "0 to 30 m/s",
+        )?;
+        for mode in &self.modes {
+            within("frequency_hz", mode.frequency_hz, 1e-3..=1e6, "above 0 Hz")?;
+            within("decay_s", mode.decay_s, 1e-6..=60.0, "1 us to 60 s")?;
+            within("level", mode.level, any.clone(), "0 or more")?;
         }
         Ok(())
+    }
+}
+
+/// An error naming what is out of range, NaN included.
+pub(super) fn within(
+    argument: &'static str,
+    value: f64,
+    range: std::ops::RangeInclusive<f64>,
+    expected: &'static str,
+) -> Result<(), Error> {
+    if range.contains(&value) {
+        Ok(())
+    } else {
+        Err(Error::argument(argument, value, expected))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_misspelt_field_is_named() {
+        let text = "name = 'x'\nduration_s = 1.0\n[noise]\nwihte_db = -60.0\n";
+        let error = Scene::from_toml(text).unwrap_err().to_string();
+        assert!(
+            error.contains("wihte_db") && error.contains("white_db"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_named() {
+        for (text, name) in [
+            ("name = 'x'\nduration_s = -1.0", "duration_s"),
+            ("name = 'x'\nduration_s = nan", "duration_s"),
+            (
+                "name = 'x'\nduration_s = 1.0\nsample_rate_hz = 10",
+                "sample_rate_hz",
+            ),
+            (
+                "name = 'x'\nduration_s = 1.0\nechoes = [{ delay_s = -1.0, level_db = 0.0 }]",
+                "delay_s",
+            ),
+            (
+                "name = 'x'\nduration_s = 1.0\n[recorder]\nstart_s = 2.0",
+                "start_s",
+            ),
+        ] {
+            let error = Scene::from_toml(text).unwrap_err().to_string();
+            assert!(error.starts_with(name), "{error}");
+        }
     }
 }

@@ -1,43 +1,20 @@
-//! What is heard besides impacts.
+//! Sounds like speech.
 
-use super::{decibels, instant_s, scene::Noise};
+use super::sound::rms;
 use crate::random::SplitMix64;
 use crate::units::{real, samples_in};
 
-/// All noises of a scene together.
-#[must_use]
-pub fn render(noise: &Noise, count: usize, rate: f64, rng: &mut SplitMix64) -> Vec<f64> {
-    let mut samples = vec![0.0; count];
-    let white = decibels(noise.white_db);
-    if white > 0.0 {
-        for x in &mut samples {
-            *x += white * rng.normal();
-        }
-    }
-    let tone = std::f64::consts::SQRT_2 * decibels(noise.tone_db);
-    if tone > 0.0 {
-        for (i, x) in samples.iter_mut().enumerate() {
-            *x += tone * libm::sin(std::f64::consts::TAU * noise.tone_hz * instant_s(i, rate));
-        }
-    }
-    let babble = decibels(noise.babble_db);
-    if babble > 0.0 {
-        add_babble(&mut samples, rate, babble, rng);
-    }
-    samples
-}
-
 /// Speech-like bursts: syllables of 80 to 300 ms, two thirds of them voiced at a gliding pitch of 90 to 220 Hz, the
 /// others hissed, each through three formants of its own, with pauses in between.
-fn add_babble(samples: &mut [f64], rate: f64, level: f64, rng: &mut SplitMix64) {
+pub(super) fn add(level: f64, rate: f64, rng: &mut SplitMix64, samples: &mut [f64]) {
     let mut start = 0;
     while start < samples.len() {
         let length = samples_in(0.08 + 0.22 * rng.uniform(), rate);
         let end = (start + length).min(samples.len());
         let syllable = syllable(end - start, rate, rng);
-        let power = syllable.iter().map(|x| x * x).sum::<f64>() / real(syllable.len().max(1));
-        let gain = if power > 0.0 {
-            level / libm::sqrt(power)
+        let loudness = rms(&syllable);
+        let gain = if loudness > 0.0 {
+            level / loudness
         } else {
             0.0
         };

@@ -1,0 +1,176 @@
+//! The impacts of a scene's drops, from the physics.
+
+use super::room::travel_s;
+use super::scene::{BounceScene, DropScene, Mode, Scene};
+use super::sound::Sound;
+use crate::Error;
+use crate::physics::{
+    Air, Ball, Bounce, DropSetup, FlightLaw, Impact, LinearContact, Oscillator, Rebound,
+    ReleaseRule, Restitution, RestitutionLaw, Scatter, Sphere,
+};
+use crate::random::SplitMix64;
+
+/// Flights shorter than this are not made: the drop ends there.
+const SHORTEST_FLIGHT_S: f64 = 1e-3;
+
+/// One impact to be heard.
+#[derive(Debug, Clone)]
+pub(super) struct Strike {
+    pub(super) impact: Impact,
+    /// Which drop of the scene it belongs to.
+    pub(super) drop: usize,
+    /// The touch, in seconds from the recording's first sample.
+    pub(super) touch_s: f64,
+    /// Arrival of the sound where the microphone is, before any delay between channels.
+    pub(super) arrival_s: f64,
+    /// e before scatter.
+    pub(super) nominal: f64,
+    /// Its sound at the loudness that its speed gives.
+    pub(super) sound: Sound,
+}
+
+/// A drop as it happens with one seed.
+#[derive(Debug, Clone)]
+pub(super) struct Dropped {
+    pub(super) height_m: f64,
+    pub(super) contact_time_s: f64,
+    pub(super) strikes: Vec<Strike>,
+}
+
+/// Drops the ball of a scene: all its impacts, those outside the recording too.
+pub(super) fn drop(scene: &Scene, index: usize, rng: &mut SplitMix64) -> Result<Dropped, Error> {
+    let drop = &scene.drops[index];
+    let seed = rng.next_u64();
+    // What only some scenes vary has its own stream, so that turning it on changes nothing else.
+    let mut variety = SplitMix64::new(!seed);
+    let height_m = drop.height_m * (1.0 + drop.height_spread * (2.0 * variety.uniform() - 1.0));
+    let setup = setup(drop, scene.gravity_m_per_s2, height_m, seed)?;
+    let impacts: Vec<Impact> = setup.impacts()?.collect();
+    let first_s = impacts.first().map_or(0.0, |i| i.time_s);
+    // The first impact falls between two samples, elsewhere for every seed.
+    let shift_s = drop.first_impact_s + rng.uniform() / f64::from(scene.sample_rate_hz)
+        - first_s
+        - scene.recorder.start_s;
+    let contact_time_s = impacts
+        .iter()
+        .find_map(|i| i.contact_time_s)
+        .unwrap_or(1e-3);
+    let fastest = impacts.first().map_or(1.0, |i| i.impact_speed_m_per_s);
+    let strikes = impacts.into_iter().map(|impact| {
+        let speed = impact.impact_speed_m_per_s;
+        let rolled_m = drop.leaving_m_per_s * (impact.time_s - first_s);
+        let distance_m = drop.microphone_distance_m + rolled_m;
+        // Within a hand's breadth of the microphone the level does not grow any more.
+        let fading = drop.microphone_distance_m.max(0.1) / distance_m.max(0.1);
+        let loudness = speed * fading * libm::exp(drop.loudness_scatter * variety.normal());
+        let modes: Vec<Mode> = drop
+            .modes
+            .iter()
+            .map(|m| Mode {
+                level: m.level * loudness * libm::exp(drop.level_scatter * rng.normal()),
+                ..*m
+            })
+            .collect();
+        let force_s = contact_time_s * libm::pow(speed / fastest, drop.contact_exponent);
+        Ok(Strike {
+            drop: index,
+            touch_s: impact.time_s + shift_s,
+            arrival_s: impact.time_s + shift_s + travel_s(distance_m),
+            nominal: nominal(&setup, speed)?,
+            sound: Sound::new(&modes, force_s),
+            impact,
+        })
+    });
+    Ok(Dropped {
+        height_m,
+        contact_time_s,
+        strikes: strikes.collect::<Result<_, Error>>()?,
+    })
+}
+
+fn setup(drop: &DropScene, gravity: f64, height_m: f64, seed: u64) -> Result<DropSetup, Error> {
+    let flight = if drop.drag {
+        let sphere = Sphere {
+            mass_kg: drop.mass_kg,
+            diameter_m: drop.diameter_m,
+        };
+        FlightLaw::in_air(gravity, sphere, Air::default())?
+    } else {
+        FlightLaw::without_air(gravity)?
+    };
+    let mut setup = DropSetup::new(height_m, flight, bounce(drop)?);
+    setup.shortest_flight_s = Some(SHORTEST_FLIGHT_S);
+    setup.most_impacts = drop.most_impacts;
+    setup.scatter = Some(Scatter {
+        ln_restitution_std: drop.bounce_scatter,
+        seed,
+    });
+    Ok(setup)
+}
+
+fn bounce(drop: &DropScene) -> Result<Bounce, Error> {
+    let given = |restitution, contact_time_s| Bounce::Given {
+        restitution,
+        contact_time_s,
+    };
+    let linear = |ball| Bounce::Linear {
+        ball,
+        release_rule: ReleaseRule::ZeroDisplacement,
+    };
+    Ok(match drop.bounce {
+        BounceScene::Constant {
+            restitution,
+            contact_time_s,
+        } => given(
+            RestitutionLaw::Constant(Restitution::new(restitution)?),
+            contact_time_s,
+        ),
+        BounceScene::Linear {
+            restitution,
+            contact_time_s,
+        } => linear(Oscillator::from_contact(
+            Restitution::new(restitution)?,
+            contact_time_s,
+        )?),
+        BounceScene::Spring {
+            stiffness_n_per_m,
+            damping_n_s_per_m,
+        } => linear(Ball::new(drop.mass_kg, stiffness_n_per_m, damping_n_s_per_m)?.oscillator()),
+        BounceScene::Viscoelastic {
+            gamma1,
+            gamma2,
+            contact_time_s,
+        } => given(
+            RestitutionLaw::Viscoelastic { gamma1, gamma2 },
+            contact_time_s,
+        ),
+        BounceScene::Power {
+            restitution,
+            yield_speed_m_per_s,
+            exponent,
+            contact_time_s,
+        } => given(
+            RestitutionLaw::Power {
+                restitution_at_yield: Restitution::new(restitution)?,
+                yield_speed_m_per_s,
+                exponent,
+            },
+            contact_time_s,
+        ),
+    })
+}
+
+/// e at a speed before scatter; 0 where the ball stays.
+fn nominal(setup: &DropSetup, speed_m_per_s: f64) -> Result<f64, Error> {
+    match setup.bounce {
+        Bounce::Given { restitution, .. } => Ok(restitution.at(speed_m_per_s)?.value()),
+        Bounce::Linear { ball, release_rule } => {
+            let gravity = setup.flight.gravity_m_per_s2();
+            let contact = LinearContact::new(ball, gravity, release_rule)?;
+            Ok(match contact.rebound(speed_m_per_s)? {
+                Rebound::Leaves(leaving) => leaving.restitution.value(),
+                Rebound::Stays => 0.0,
+            })
+        }
+    }
+}

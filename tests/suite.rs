@@ -1,0 +1,80 @@
+//! The whole suite, made and analyzed: nothing that was once reached may be lost.
+//!
+//! The thresholds are what `bounce-audio synth --suite DIR --seeds 2` and `bounce-audio evaluate DIR --tighten
+//! fixtures/suite-thresholds.toml` found, less a margin.
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a failing test should panic"
+)]
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
+use bounce_audio::analysis::{Settings, analyze_clearest};
+use bounce_audio::evaluate::reference::Reference;
+use bounce_audio::evaluate::rows::{Evaluation, Tier};
+use bounce_audio::evaluate::scores::{FileScore, score};
+use bounce_audio::evaluate::thresholds::Thresholds;
+use bounce_audio::synth::presets::{names, preset};
+use bounce_audio::synth::render;
+
+const SEEDS: [u64; 2] = [1, 2];
+
+fn analyzed(name: &str, seed: u64) -> FileScore {
+    let made = render(&preset(name).unwrap(), seed).unwrap();
+    let truth = serde_json::to_string(&made.truth).unwrap();
+    let reference = Reference::from_json(&truth).unwrap();
+    let mut channels = vec![made.samples];
+    channels.extend(made.more_channels);
+    let rate = f64::from(made.truth.sample_rate_hz);
+    let (_, analysis) = analyze_clearest(&channels, rate, &Settings::default()).unwrap();
+    score(&analysis, &reference, made.truth.duration_s, 0.0)
+}
+
+/// The next job and its index, each to one thread only.
+fn take<'a, T>(next: &AtomicUsize, jobs: &'a [T]) -> Option<(usize, &'a T)> {
+    let index = next.fetch_add(1, Ordering::Relaxed);
+    jobs.get(index).map(|job| (index, job))
+}
+
+/// All scores in the order of the jobs, whatever the threads do.
+fn all(jobs: &[(&str, u64)]) -> Vec<FileScore> {
+    let next = AtomicUsize::new(0);
+    let scores = Mutex::new(vec![FileScore::default(); jobs.len()]);
+    let threads = thread::available_parallelism().map_or(1, usize::from);
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                while let Some((index, (name, seed))) = take(&next, jobs) {
+                    let score = analyzed(name, *seed);
+                    scores.lock().unwrap()[index] = score;
+                }
+            });
+        }
+    });
+    scores.into_inner().unwrap()
+}
+
+#[test]
+fn the_suite_reaches_what_it_reached() {
+    let jobs: Vec<(&str, u64)> = names()
+        .flat_map(|name| SEEDS.map(|seed| (name, seed)))
+        .collect();
+    let tier = Tier {
+        timing: "correlation".to_owned(),
+        model: "constant".to_owned(),
+        files: all(&jobs),
+    };
+    let evaluation = Evaluation::of(&[tier], None);
+    let text = include_str!("../fixtures/suite-thresholds.toml");
+    let thresholds = Thresholds::from_toml(text).unwrap();
+    let rows = evaluation.rows.iter().chain(&evaluation.scenes);
+    let complaints = thresholds.complaints(rows);
+    assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+    assert!(
+        evaluation.rows[0].audible > 1_000,
+        "hardly anything was there to hear"
+    );
+}
