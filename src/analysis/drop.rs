@@ -33,6 +33,7 @@ pub(super) fn measure(
             flights: &flights,
             restitution: ratio.value,
             height_m,
+            height_std_m: settings.height_std_m,
             gravity_m_per_s2: settings.gravity_m_per_s2,
         };
         let solved = total_time::solve(&input)?;

@@ -17,6 +17,8 @@ use crate::units::{real, samples_in};
 pub struct Settings {
     /// From the ball's lowest point to the surface at release, in metres, if known. It applies to every drop.
     pub height_m: Option<f64>,
+    /// Standard error of the height in metres. Default 1 mm: a ruler read by eye.
+    pub height_std_m: f64,
     /// Gravity in m/s². Default 9.81.
     pub gravity_m_per_s2: f64,
     /// Listen from here, in seconds. Default: the start.
@@ -35,6 +37,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             height_m: None,
+            height_std_m: 1e-3,
             gravity_m_per_s2: 9.81,
             start_s: None,
             end_s: None,
@@ -56,6 +59,13 @@ impl Settings {
         };
         positive("gravity", self.gravity_m_per_s2)?;
         self.height_m.map_or(Ok(()), |h| positive("height", h))?;
+        if !(self.height_std_m.is_finite() && self.height_std_m >= 0.0) {
+            return Err(Error::argument(
+                "height error",
+                self.height_std_m,
+                "0 or more",
+            ));
+        }
         for (name, time) in [("start", self.start_s), ("end", self.end_s)] {
             if let Some(time) = time.filter(|t| !t.is_finite() || *t < 0.0) {
                 return Err(Error::argument(name, time, "0 s or more"));

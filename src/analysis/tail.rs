@@ -61,11 +61,30 @@ pub(super) fn follow(
             strength: c.strength,
         })
         .collect();
-    let onsets: Vec<f64> = onsets.iter().map(|t| stretch.start_s + t).collect();
-    match sequence::follow_again(&late, &onsets, settings) {
+    let known = known(&chain, stretch.start_s, &onsets);
+    match sequence::follow_again(&late, &known, settings) {
         Some(end) => joined(chain, first, &end, late, events),
         None => chain,
     }
+}
+
+/// A heard impact is this near its match, in seconds; an inferred one within this share of its flight.
+const HEARD_OFF_S: f64 = 0.4e-3;
+const INFERRED_OFF: f64 = 0.02;
+
+/// The times of all impacts of a chain, those heard refined, and how far off they may be.
+fn known(chain: &Chain, start_s: f64, onsets: &[f64]) -> Vec<(f64, f64)> {
+    let mut onsets = onsets.iter();
+    let mut last_s = f64::NEG_INFINITY;
+    let times = chain.links.iter().map(|link| {
+        let off_s = (INFERRED_OFF * (link.time_s - last_s)).min(INFERRED_OFF);
+        last_s = link.time_s;
+        match link.event.and_then(|_| onsets.next()) {
+            Some(onset) => (start_s + onset, HEARD_OFF_S),
+            None => (link.time_s, off_s),
+        }
+    });
+    times.collect()
 }
 
 /// The first link of the late part, and the time from just before it to well past the end.

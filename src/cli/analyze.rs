@@ -28,6 +28,9 @@ pub(super) struct Arguments {
     /// Height of release, from the ball's lowest point to the surface: 30.5cm, 12in, 0.305
     #[arg(long, value_parser = length, allow_negative_numbers = true)]
     height: Option<f64>,
+    /// Standard error of the height
+    #[arg(long, value_parser = length, default_value = "1mm", allow_negative_numbers = true)]
+    height_error: f64,
     /// Gravity in m/s²
     #[arg(long, value_parser = acceleration, default_value = "9.81", allow_negative_numbers = true)]
     gravity: f64,
@@ -144,6 +147,7 @@ fn listen(arguments: &Arguments, recording: Recording) -> Result<Report, Error> 
         },
         settings: SettingsInfo {
             height_m: settings.height_m,
+            height_std_m: settings.height_std_m,
             gravity_m_per_s2: settings.gravity_m_per_s2,
             start_s: settings.start_s,
             end_s: settings.end_s,
@@ -156,6 +160,7 @@ fn listen(arguments: &Arguments, recording: Recording) -> Result<Report, Error> 
 fn settings(arguments: &Arguments) -> Settings {
     Settings {
         height_m: arguments.height,
+        height_std_m: arguments.height_error,
         gravity_m_per_s2: arguments.gravity,
         start_s: arguments.start,
         end_s: arguments.end,

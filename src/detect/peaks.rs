@@ -1,14 +1,10 @@
 //! Local maxima of the evidence.
 
-use crate::units::real;
-
 /// A local maximum.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
     /// Its index.
     pub index: usize,
-    /// Where it is between the indices, by the parabola through its neighbours.
-    pub position: f64,
     /// Its height.
     pub height: f64,
 }
@@ -34,7 +30,6 @@ pub fn pick(values: &[f32], separation: f64, lowest: f64) -> Vec<Peak> {
         if highest && stands_out(values, i) {
             peaks.push(Peak {
                 index: i,
-                position: real(i) + vertex(values, i),
                 height: f64::from(height),
             });
         }
@@ -53,21 +48,6 @@ fn falls_first<'a>(mut side: impl Iterator<Item = &'a f32>, height: f32) -> bool
         .is_none_or(|&v| v <= height)
 }
 
-/// Offset in ±½ of the vertex of the parabola through three neighbouring values; 0 at the ends.
-fn vertex(values: &[f32], i: usize) -> f64 {
-    let at = |j: usize| values.get(j).copied().map(f64::from);
-    let (Some(left), Some(middle), Some(right)) = (i.checked_sub(1).and_then(at), at(i), at(i + 1))
-    else {
-        return 0.0;
-    };
-    let curvature = left - 2.0 * middle + right;
-    if curvature < 0.0 {
-        (0.5 * (left - right) / curvature).clamp(-0.5, 0.5)
-    } else {
-        0.0
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,15 +64,5 @@ mod tests {
         let values = [0.0, 2.0, 5.0, 4.0, 4.5, 8.0, 3.0, 4.5, 0.0];
         let found: Vec<usize> = pick(&values, 1.0, 2.0).iter().map(|p| p.index).collect();
         assert_eq!(found, [5]);
-    }
-
-    #[test]
-    fn the_vertex_of_a_parabola_is_found_between_the_samples() {
-        #[expect(clippy::cast_possible_truncation, reason = "test values")]
-        let values: Vec<f32> = (0..9)
-            .map(|i| (50.0 - (real(i) - 4.3).powi(2)) as f32)
-            .collect();
-        let peak = pick(&values, 2.0, 1.0)[0];
-        assert!((peak.position - 4.3).abs() < 1e-4, "{}", peak.position);
     }
 }

@@ -19,6 +19,8 @@ pub struct Drop<'a> {
     pub restitution: f64,
     /// From the ball's lowest point to the surface, in metres.
     pub height_m: f64,
+    /// Standard error of the height in metres.
+    pub height_std_m: f64,
     /// In m/s².
     pub gravity_m_per_s2: f64,
 }
@@ -68,7 +70,7 @@ const HALF_A_BOUNCE: f64 = 1.5;
 /// The total time and what follows from it.
 ///
 /// The standard error holds the scatter of the bounces (each moves all flights after it), and the time that the ball
-/// goes on unheard, which makes n and the total time lower bounds. Height and gravity are taken as exact.
+/// goes on unheard, which makes n and the total time lower bounds, and the error of the height. Gravity is exact.
 ///
 /// # Errors
 /// [`Error::Argument`] if height or gravity is not positive.
@@ -96,8 +98,8 @@ pub fn solve(drop: &Drop<'_>) -> Result<Result<TotalTime, Missing>, Error> {
     }
     let std_s = error_s(drop);
     let freedom = real(drop.flights.ln_ratios().len().saturating_sub(1));
-    let estimate = |e: f64, slope: f64| {
-        let std = slope * std_s;
+    let estimate = |e: f64, per_time: f64, per_height: f64| {
+        let std = (per_time * std_s).hypot(per_height * drop.height_std_m);
         let reach = student_975(freedom) * std;
         Estimate {
             value: e,
@@ -108,8 +110,20 @@ pub fn solve(drop: &Drop<'_>) -> Result<Result<TotalTime, Missing>, Error> {
     let endless = series.restitution_from_total_time_approx(total_time_s).ok();
     Ok(Ok(TotalTime {
         total_time_s,
-        eq25: root.map(|r| estimate(r.restitution.value(), r.per_total_time_per_s)),
-        eq30: endless.map(|r| estimate(r.restitution.value(), r.per_total_time_per_s)),
+        eq25: root.map(|r| {
+            estimate(
+                r.restitution.value(),
+                r.per_total_time_per_s,
+                r.per_height_per_m,
+            )
+        }),
+        eq30: endless.map(|r| {
+            estimate(
+                r.restitution.value(),
+                r.per_total_time_per_s,
+                r.per_height_per_m,
+            )
+        }),
     }))
 }
 
@@ -120,13 +134,14 @@ const CONTACT_ROUNDS: usize = 6;
 ///
 /// # Formula
 /// ```text
-/// h1 = g·T_1²/8,   e = √(h1/h0) = T_1·√(g/(8·h0)),   σ = e·σ_T/T_1
+/// h1 = g·T_1²/8,   e = √(h1/h0) = T_1·√(g/(8·h0)),   (σ/e)² = (σ_T/T_1)² + (σ_h/2h0)²
 /// ```
 #[must_use]
 pub fn first_rebound(drop: &Drop<'_>) -> Option<Estimate> {
     let flight = drop.flights.after(0)?;
     let value = flight * (drop.gravity_m_per_s2 / (8.0 * drop.height_m)).sqrt();
-    let std = value * drop.impacts[0].std_s.hypot(drop.impacts[1].std_s) / flight;
+    let timing = drop.impacts[0].std_s.hypot(drop.impacts[1].std_s) / flight;
+    let std = value * timing.hypot(0.5 * drop.height_std_m / drop.height_m);
     let reach = student_975(f64::INFINITY) * std;
     Some(Estimate {
         value,
@@ -214,6 +229,7 @@ mod tests {
             flights: &flights,
             restitution,
             height_m,
+            height_std_m: 1e-3,
             gravity_m_per_s2: G,
         })
         .unwrap()
@@ -259,6 +275,7 @@ mod tests {
             flights: &flights,
             restitution: 0.8,
             height_m: 0.5,
+            height_std_m: 1e-3,
             gravity_m_per_s2: G,
         };
         assert!((first_rebound(&drop).unwrap().value - 0.8).abs() < 1e-12);

@@ -49,6 +49,8 @@ pub struct RecordingInfo {
 pub struct SettingsInfo {
     /// From the ball's lowest point to the surface, in metres.
     pub height_m: Option<f64>,
+    /// Standard error of the height in metres.
+    pub height_std_m: f64,
     /// In m/s².
     pub gravity_m_per_s2: f64,
     /// Where listening began, in seconds.

@@ -111,20 +111,22 @@ pub fn find(events: &[Event], settings: &Settings) -> Result<Found, Error> {
     Ok(reasons::explain(&scene, drops, &taken))
 }
 
-/// An event that is taken for a known impact is at most this far from it, in seconds.
-const SAME_IMPACT_S: f64 = 0.4e-3;
-
 /// Follows a known chain through other events, from the three neighbouring impacts among them that earn most.
 ///
-/// None if no three neighbouring impacts have events.
+/// `impacts_s` are the times of all impacts of the chain and how far off each may be, in seconds. None if no three
+/// neighbouring impacts have events.
 #[must_use]
-pub fn follow_again(events: &[Event], impacts_s: &[f64], settings: &Settings) -> Option<Chain> {
+pub fn follow_again(
+    events: &[Event],
+    impacts_s: &[(f64, f64)],
+    settings: &Settings,
+) -> Option<Chain> {
     let clutter = Clutter::new(events);
     let scene = Scene::new(events, &clutter, settings);
     let known: Vec<Option<usize>> = impacts_s
         .iter()
-        .map(|&t| {
-            let near = scene.between(t - SAME_IMPACT_S, t + SAME_IMPACT_S);
+        .map(|&(t, off)| {
+            let near = scene.between(t - off, t + off);
             near.max_by(|&a, &b| events[a].strength.total_cmp(&events[b].strength))
         })
         .collect();
