@@ -10,11 +10,13 @@ use super::{Outcome, limit};
 use crate::Error;
 use crate::analysis::{Settings, analyze_clearest};
 use crate::detect::refine::Timing;
+use crate::evaluate::picture;
 use crate::evaluate::reference::Reference;
 use crate::evaluate::rows::{Evaluation, Row, Tier};
 use crate::evaluate::scores::{FileScore, score};
 use crate::evaluate::text::to_text;
 use crate::evaluate::thresholds::Thresholds;
+use crate::plot;
 use crate::units::real;
 use crate::wav;
 
@@ -31,6 +33,9 @@ pub(super) struct Arguments {
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Draw error against speed into this picture
+    #[arg(long, value_name = "OUT.svg|png")]
+    plot: Option<PathBuf>,
     /// Compare what timing by correlation reaches with these thresholds
     #[arg(long, value_name = "THRESHOLDS.toml")]
     check: Option<PathBuf>,
@@ -76,6 +81,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         Format::Text => to_text(&evaluation),
         Format::Json => evaluation.to_json().map_err(std::io::Error::from)?,
     };
+    if let Some(path) = &arguments.plot {
+        draw(path, &evaluation).map_err(|e| e.in_file(path))?;
+    }
     let complaints = hold(arguments, &evaluation)?;
     if matches!(arguments.format, Format::Text) {
         output.extend(complaints.iter().map(|c| format!("missed: {c}\n")));
@@ -84,6 +92,23 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         output,
         status: u8::from(!complaints.is_empty()),
     })
+}
+
+/// Writes the picture of error against speed, SVG or PNG by the name's ending.
+fn draw(path: &Path, evaluation: &Evaluation) -> Result<(), Error> {
+    let figure = picture::figure(evaluation);
+    let bytes = match path.extension().and_then(|e| e.to_str()) {
+        Some("svg") => plot::to_svg(&figure)?.into_bytes(),
+        Some("png") => plot::to_png(&figure)?,
+        _ => {
+            return Err(Error::Argument {
+                argument: "--plot",
+                got: format!("'{}'", path.display()),
+                expected: "a name that ends in .svg or .png",
+            });
+        }
+    };
+    Ok(fs::write(path, bytes)?)
 }
 
 /// Recordings with truth, by name.
