@@ -111,6 +111,16 @@ impl<'a> Stretch<'a> {
         self.start_s + real(self.samples.len()) / self.sample_rate_hz
     }
 
+    /// Candidates, whose times count from the start of the stretch, as events of the recording.
+    fn events(&self, candidates: &[Candidate]) -> Vec<Event> {
+        let event = |c: &Candidate| Event {
+            time_s: self.start_s + c.time_s,
+            jitter_s: c.jitter_s,
+            strength: c.strength,
+        };
+        candidates.iter().map(event).collect()
+    }
+
     /// The samples between two times of the recording, as far as they are in the stretch.
     fn between(&self, from_s: f64, to_s: f64) -> &'a [f32] {
         let at = |t: f64| samples_in(t - self.start_s, self.sample_rate_hz).min(self.samples.len());
@@ -182,14 +192,7 @@ fn explain(
     candidates: &[Candidate],
     settings: &Settings,
 ) -> Result<Analysis, Error> {
-    let events: Vec<Event> = candidates
-        .iter()
-        .map(|c| Event {
-            time_s: stretch.start_s + c.time_s,
-            jitter_s: c.jitter_s,
-            strength: c.strength,
-        })
-        .collect();
+    let events = stretch.events(candidates);
     let found = sequence::find(&events, &settings.sequence)?;
     let mut all = events.clone();
     let chains = found

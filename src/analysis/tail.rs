@@ -53,14 +53,7 @@ pub(super) fn follow(
     else {
         return chain;
     };
-    let late: Vec<Event> = found
-        .iter()
-        .map(|c| Event {
-            time_s: stretch.start_s + c.time_s,
-            jitter_s: c.jitter_s,
-            strength: c.strength,
-        })
-        .collect();
+    let late = stretch.events(&found);
     let known = known(&chain, stretch.start_s, &onsets);
     match sequence::follow_again(&late, &known, settings) {
         Some(end) => joined(chain, first, &end, late, events),
