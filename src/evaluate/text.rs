@@ -2,7 +2,7 @@
 
 use super::rows::{Evaluation, Row};
 
-const HEAD: &str = "timing       model     scene         files  recall  precis  false lost split   median    p95  limit×  slips stated×   e med   e p90  cover95   audio s/s  of limit";
+const HEAD: &str = "timing       model     scene         files  recall  precis  false lost split   median    p95  limit×  slips stated×     walk   e med   e p90  cover95   audio s/s  of limit";
 
 /// The table: totals first, then the scenes of each way of timing.
 #[must_use]
@@ -22,6 +22,7 @@ recall: share of the audible impacts that were found; precis: share of what was 
 false: drops where none was; lost: drops not found; split: drops found in pieces
 median, p95: error of the times in microseconds, after one common offset per recording
 limit×: rms error over the least that is possible; slips: off by half a period or more; stated×: rms error over stated
+walk: slope of the error against level, in microseconds per dB
 e med, e p90: error of e against the ball's own; cover95: how often the 95 % interval holds it
 "
 }
@@ -29,7 +30,7 @@ e med, e p90: error of e against the ball's own; cover95: how often the 95 % int
 fn line(row: &Row) -> String {
     let micro = |x: Option<f64>| number(x.map(|s| 1e6 * s), 2);
     format!(
-        "{:<12} {:<9} {:<12} {:>6} {:>7} {:>7} {:>6} {:>4} {:>5} {:>8} {:>6} {:>7} {:>6} {:>7} {:>7} {:>7} {:>8} {:>11} {:>9}\n",
+        "{:<12} {:<9} {:<12} {:>6} {:>7} {:>7} {:>6} {:>4} {:>5} {:>8} {:>6} {:>7} {:>6} {:>7} {:>8} {:>7} {:>7} {:>8} {:>11} {:>9}\n",
         row.timing,
         row.model,
         row.scene.as_deref().unwrap_or("all"),
@@ -44,6 +45,7 @@ fn line(row: &Row) -> String {
         number(row.efficiency, 1),
         number(row.cycle_slips, 3),
         number(row.error_over_stated, 1),
+        number(row.walk_s_per_db.map(|s| 1e6 * s), 3),
         number(row.restitution_error_median, 4),
         number(row.restitution_error_p90, 4),
         number(row.coverage95, 2),
