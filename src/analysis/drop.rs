@@ -6,27 +6,45 @@ use crate::detect::refine::refine;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
-use crate::report::{Drop, Estimates, Impact, Model, Restitution, Scatter, Status, Warning};
+use crate::report::{Drop, Estimates, Impact, Model, Restitution, Scatter, Status};
 use crate::sequence::{Chain, Link};
+
+/// A drop, as far as it can be known before the recording ends.
+#[derive(Debug, Clone)]
+pub(super) struct Measured {
+    /// The drop.
+    pub drop: Drop,
+    /// How long the ball would have gone on after its last impact, in seconds.
+    left_s: Option<f64>,
+}
+
+impl Measured {
+    /// The drop in a recording that was listened to up to `end_s`: if the ball would go on longer, there is no end.
+    pub(super) fn until(self, end_s: f64) -> Drop {
+        let mut drop = self.drop;
+        if let Some(cut) = warnings::of_end(&drop, self.left_s, end_s) {
+            drop.total_time_s = None;
+            (drop.estimates.eq25, drop.estimates.eq30) = (None, None);
+            // That the recording ends early says it all.
+            drop.warnings.retain(|w| w.code != "ended_early");
+            drop.warnings.push(cut);
+        }
+        drop
+    }
+}
 
 /// Times the impacts of a chain and fits them.
 pub(super) fn measure(
     stretch: &Stretch<'_>,
     chain: &Chain,
+    channel: usize,
     settings: &Settings,
-) -> Result<Drop, Error> {
+) -> Result<Measured, Error> {
     let timed = times(stretch, chain, settings);
     let flights = Flights::between(&timed);
     let ratio = flights.ratio();
     let mut warnings = warnings::of_chain(stretch, &timed, chain);
     let (mut total, mut first_rebound) = (None, None);
-    let cut = ratio.and_then(|r| {
-        warnings::of_end(
-            stretch,
-            &timed,
-            total_time::left_s(&timed, &flights, r.value),
-        )
-    });
     if let (Some(ratio), Some(height_m)) = (ratio, settings.height_m) {
         let input = total_time::Drop {
             impacts: &timed,
@@ -43,13 +61,11 @@ pub(super) fn measure(
         ) {
             first_rebound = total_time::first_rebound(&input);
         }
-        // That the recording ends early says it all.
-        let unsaid = |w: &Warning| cut.is_none() || w.code != "ended_early";
-        warnings.extend(warnings::of_total_time(&solved).filter(unsaid));
-        total = solved.ok().filter(|_| cut.is_none());
+        warnings.extend(warnings::of_total_time(&solved));
+        total = solved.ok();
     }
-    warnings.extend(cut);
-    Ok(Drop {
+    let drop = Drop {
+        channel: channel + 1,
         bounces: chain.heard(),
         observed_time_s: timed.last().map_or(0.0, |i| i.time_s)
             - timed.first().map_or(0.0, |i| i.time_s),
@@ -70,6 +86,10 @@ pub(super) fn measure(
         rejected: chain.rejected.iter().map(rejected).collect(),
         warnings,
         impacts: impacts(stretch, chain, &timed, &flights, settings.gravity_m_per_s2),
+    };
+    Ok(Measured {
+        drop,
+        left_s: ratio.map(|r| total_time::left_s(&timed, &flights, r.value)),
     })
 }
 

@@ -1,13 +1,20 @@
 //! The whole way from samples to drops: detect, sequence, refine, fit.
+//!
+//! A [`Listener`] takes a recording of any length block by block; [`analyze`] gives it one that is in memory.
 
 mod drop;
+mod findings;
+mod listener;
+mod scene;
 mod tail;
 mod warnings;
+
+pub use listener::Listener;
 
 use crate::Error;
 use crate::detect::refine::Timing;
 use crate::detect::{self, Candidate};
-use crate::report::{Analysis, Drop, Rejected};
+use crate::report::{Analysis, Rejected};
 use crate::sequence::{self, Event, Reason};
 use crate::units::{real, samples_in};
 
@@ -80,33 +87,19 @@ impl Settings {
     }
 }
 
-/// The stretch of a channel that is listened to. All times outside it count from the start of the recording.
+/// The stretch of a channel that is analyzed. All times outside it count from the start of the recording.
 #[derive(Debug, Clone, Copy)]
 struct Stretch<'a> {
     samples: &'a [f32],
     sample_rate_hz: f64,
     start_s: f64,
+    /// Where listening began; the stretch may begin later.
+    listened_from_s: f64,
     /// The grid of the detector.
     hop_s: f64,
 }
 
 impl<'a> Stretch<'a> {
-    fn new(samples: &'a [f32], sample_rate_hz: f64, settings: &Settings) -> Result<Self, Error> {
-        let at = |time_s: f64| samples_in(time_s, sample_rate_hz).min(samples.len());
-        let first = settings.start_s.map_or(0, at);
-        let last = settings.end_s.map_or(samples.len(), at);
-        if first >= last {
-            let got = settings.start_s.unwrap_or(0.0);
-            return Err(Error::argument("start", got, "a time within the recording"));
-        }
-        Ok(Self {
-            samples: &samples[first..last],
-            sample_rate_hz,
-            start_s: real(first) / sample_rate_hz,
-            hop_s: settings.detect.hop_s,
-        })
-    }
-
     fn end_s(&self) -> f64 {
         self.start_s + real(self.samples.len()) / self.sample_rate_hz
     }
@@ -154,60 +147,22 @@ pub fn analyze(
     sample_rate_hz: f64,
     settings: &Settings,
 ) -> Result<Analysis, Error> {
-    settings.check()?;
-    let stretch = Stretch::new(samples, sample_rate_hz, settings)?;
-    let candidates = detect::candidates(stretch.samples, sample_rate_hz, &settings.detect)?;
-    explain(&stretch, &candidates, settings)
+    analyze_clearest(&[samples], sample_rate_hz, settings).map(|(_, analysis)| analysis)
 }
 
-/// Listens to the clearest of several channels; gives its index too. See [`detect::clarity`].
+/// Listens to the clearest of several channels, scene by scene; gives the index of the one that most was heard on too.
+/// See [`detect::clarity`].
 ///
 /// # Errors
 /// As [`analyze`]; [`Error::Argument`] if there are no channels.
-pub fn analyze_clearest(
-    channels: &[Vec<f32>],
+pub fn analyze_clearest<C: AsRef<[f32]>>(
+    channels: &[C],
     sample_rate_hz: f64,
     settings: &Settings,
 ) -> Result<(usize, Analysis), Error> {
-    settings.check()?;
-    let mut best: Option<(usize, f64, Stretch<'_>, Vec<Candidate>)> = None;
-    for (index, samples) in channels.iter().enumerate() {
-        let stretch = Stretch::new(samples, sample_rate_hz, settings)?;
-        let candidates = detect::candidates(stretch.samples, sample_rate_hz, &settings.detect)?;
-        let clarity = detect::clarity(&candidates);
-        if best
-            .as_ref()
-            .is_none_or(|(_, highest, ..)| clarity > *highest)
-        {
-            best = Some((index, clarity, stretch, candidates));
-        }
-    }
-    let (index, _, stretch, candidates) =
-        best.ok_or_else(|| Error::argument("channels", 0.0, "at least one"))?;
-    Ok((index, explain(&stretch, &candidates, settings)?))
-}
-
-fn explain(
-    stretch: &Stretch<'_>,
-    candidates: &[Candidate],
-    settings: &Settings,
-) -> Result<Analysis, Error> {
-    let events = stretch.events(candidates);
-    let found = sequence::find(&events, &settings.sequence)?;
-    let mut all = events.clone();
-    let chains = found
-        .drops
-        .into_iter()
-        .map(|chain| tail::follow(stretch, chain, &mut all, &settings.sequence));
-    let drops: Vec<Drop> = chains
-        .map(|chain| drop::measure(stretch, &chain, settings))
-        .collect::<Result<_, _>>()?;
-    Ok(Analysis {
-        rejected: found.rejected.iter().map(rejected).collect(),
-        rejected_weak: found.weak,
-        warnings: warnings::of_recording(stretch, &drops, &events),
-        drops,
-    })
+    let mut listener = Listener::new(channels.len(), sample_rate_hz, settings)?;
+    listener.push(channels)?;
+    listener.finish()
 }
 
 /// An event's reason in words.

@@ -4,7 +4,7 @@ use super::Stretch;
 use crate::fit::flights::Impact as Timed;
 use crate::fit::total_time::{Missing, TotalTime};
 use crate::report::{Drop, Warning};
-use crate::sequence::{Chain, Event};
+use crate::sequence::Chain;
 
 /// Fewer flights than this tell the trend of e from chance badly.
 const FEW_IMPACTS: usize = 6;
@@ -15,37 +15,62 @@ const CLIPPED_SAMPLES: usize = 3;
 /// A candidate at least this strong, in nats, is a transient that a person would notice.
 const NOTICEABLE: f64 = 30.0;
 
-/// What the recording as a whole calls for.
-pub(super) fn of_recording(
-    stretch: &Stretch<'_>,
-    drops: &[Drop],
-    events: &[Event],
-) -> Vec<Warning> {
-    if !drops.is_empty() {
-        return Vec::new();
+/// What was heard in the whole recording, for when there is no drop in it.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Heard {
+    sound: bool,
+    noticeable: usize,
+}
+
+impl Heard {
+    /// Adds a scene, by whether there was any sound and the strengths of its events.
+    pub(super) fn add(&mut self, sound: bool, strengths: &[f64]) {
+        self.sound |= sound;
+        self.noticeable += strengths.iter().filter(|&&s| s >= NOTICEABLE).count();
     }
-    let peak = stretch.samples.iter().map(|x| x.abs()).fold(0.0, f32::max);
-    if peak <= 0.0 {
-        return vec![Warning::new(
-            "silence",
-            "the recording is silent: every sample is zero",
-        )];
+
+    /// Why there is no drop, and what to do about it.
+    pub(super) fn warning(self) -> Warning {
+        // The first sound rises out of the silence before it, so a recording without a scene is silent.
+        if !self.sound {
+            return Warning::new("silence", "the recording is silent: every sample is zero");
+        }
+        let message = match self.noticeable {
+            0 => "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that \
+                  the right input was recorded"
+                .to_owned(),
+            1..=3 => format!(
+                "only {} sharp sounds: a drop takes four impacts or more. Drop the ball from higher, or record for \
+                 longer",
+                self.noticeable
+            ),
+            _ => format!(
+                "{} sharp sounds, but no sequence of them shrinks as the flights of a bouncing ball do. If there is a \
+                 drop, narrow the search with --start and --end",
+                self.noticeable
+            ),
+        };
+        Warning::new("no_drop", message)
     }
-    let noticeable = events.iter().filter(|e| e.strength >= NOTICEABLE).count();
-    let message = match noticeable {
-        0 => "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that the \
-              right input was recorded"
-            .to_owned(),
-        1..=3 => format!(
-            "only {noticeable} sharp sounds: a drop takes four impacts or more. Drop the ball from higher, or record \
-             for longer"
-        ),
-        _ => format!(
-            "{noticeable} sharp sounds, but no sequence of them shrinks as the flights of a bouncing ball do. If \
-             there is a drop, narrow the search with --start and --end"
-        ),
-    };
-    vec![Warning::new("no_drop", message)]
+}
+
+/// What the limit of memory cost.
+pub(super) fn of_memory(left_out: usize, torn: usize) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    if left_out > 0 {
+        let message = format!(
+            "{left_out} drops with the least evidence left out: there are more than fit the memory. Listen to parts \
+             with --start and --end"
+        );
+        warnings.push(Warning::new("left_out", message));
+    }
+    if torn > 0 {
+        let message = format!(
+            "{torn} drops last longer than what is held in memory, and stand here in two parts"
+        );
+        warnings.push(Warning::new("torn", message));
+    }
+    warnings
 }
 
 /// What the impacts of a drop call for.
@@ -86,7 +111,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
         warnings.push(Warning::new("clipped", message));
     }
     if let (Some(first), Some(second)) = (timed.first(), timed.get(1))
-        && 2.0 * first.time_s - second.time_s < stretch.start_s
+        && 2.0 * first.time_s - second.time_s < stretch.listened_from_s
     {
         let message = "the recording starts less than a flight before the first impact heard: earlier ones may be \
                        missing. Start recording before the drop";
@@ -100,9 +125,10 @@ fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
     sound.iter().filter(|x| x.abs() >= CLIPPED).count() >= CLIPPED_SAMPLES
 }
 
-/// The end of a drop: `left_s` is how long the ball would have gone on after its last impact.
-pub(super) fn of_end(stretch: &Stretch<'_>, timed: &[Timed], left_s: f64) -> Option<Warning> {
-    let recorded_s = stretch.end_s() - timed.last()?.time_s;
+/// The end of a drop: `left_s` is how long the ball would have gone on after its last impact, `end_s` the end of the
+/// recording.
+pub(super) fn of_end(drop: &Drop, left_s: Option<f64>, end_s: f64) -> Option<Warning> {
+    let (left_s, recorded_s) = (left_s?, end_s - drop.impacts.last()?.time_s);
     let message = format!(
         "the recording ends before the ball rests: it would go on for about {left_s:.2} s, of which {recorded_s:.2} s \
          were recorded. There is no T_total, and equation (25) does not apply. Record for longer"

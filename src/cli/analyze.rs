@@ -1,17 +1,17 @@
 //! `bounce-audio analyze`: one recording.
 
-use std::io;
+use std::io::{self, Read};
+use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
 use super::{Outcome, acceleration, length, time};
 use crate::Error;
-use crate::analysis::{Settings, analyze, analyze_clearest};
+use crate::analysis::{Listener, Settings};
 use crate::detect::refine::Timing;
 use crate::report::{self, RecordingInfo, Report, SettingsInfo, csv, json, text};
-use crate::units::real;
-use crate::wav::{self, Recording};
+use crate::wav::Stream;
 
 /// Analyze one recording of a bouncing ball.
 ///
@@ -57,6 +57,21 @@ enum Channel {
     Number(usize),
 }
 
+impl Channel {
+    /// The indices of the channels that are listened to, of this many.
+    fn of(self, channels: usize) -> Result<Range<usize>, Error> {
+        match self {
+            Self::Best => Ok(0..channels),
+            Self::Number(number) if number <= channels => Ok(number - 1..number),
+            Self::Number(number) => Err(Error::Argument {
+                argument: "--channel",
+                got: number.to_string(),
+                expected: "a channel that the recording has",
+            }),
+        }
+    }
+}
+
 impl std::str::FromStr for Channel {
     type Err = String;
 
@@ -92,8 +107,14 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let recording = read(&arguments.file)?;
-    let report = listen(arguments, recording).map_err(|e| e.in_file(&arguments.file))?;
+    let report = if arguments.file == Path::new("-") {
+        let open = Stream::open(io::stdin().lock());
+        open.and_then(|stream| listen(arguments, stream))
+            .map_err(|e| e.in_file("standard input"))?
+    } else {
+        let stream = Stream::open_file(&arguments.file)?;
+        listen(arguments, stream).map_err(|e| e.in_file(&arguments.file))?
+    };
     let output = match arguments.format {
         Format::Text => text::to_text(&report),
         Format::Csv => csv::to_csv(&report),
@@ -105,45 +126,35 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     })
 }
 
-fn read(file: &Path) -> Result<Recording, Error> {
-    if file == Path::new("-") {
-        wav::read(io::stdin().lock()).map_err(|e| e.in_file("standard input"))
-    } else {
-        wav::read_file(file)
-    }
-}
-
-fn listen(arguments: &Arguments, recording: Recording) -> Result<Report, Error> {
+/// Listens to a stream to its end.
+fn listen(arguments: &Arguments, mut stream: Stream<impl Read>) -> Result<Report, Error> {
     let settings = settings(arguments);
-    let rate = f64::from(recording.sample_rate_hz);
-    let (channel, mut analysis) = match arguments.channel {
-        Channel::Best => analyze_clearest(&recording.channels, rate, &settings)?,
-        Channel::Number(number) => {
-            let samples = recording
-                .channels
-                .get(number - 1)
-                .ok_or_else(|| Error::Argument {
-                    argument: "--channel",
-                    got: number.to_string(),
-                    expected: "a channel that the recording has",
-                })?;
-            (number - 1, analyze(samples, rate, &settings)?)
-        }
-    };
-    let repairs = recording
-        .warnings
-        .into_iter()
-        .map(|message| report::Warning::new("repaired", message));
+    let channels = usize::from(stream.container().channels);
+    let heard = arguments.channel.of(channels)?;
+    let rate = f64::from(stream.container().sample_rate_hz);
+    let encoding = stream.container().encoding();
+    let mut listener = Listener::new(heard.len(), rate, &settings)?;
+    while let Some(block) = stream.next_block()? {
+        listener.push(&block[heard.clone()])?;
+    }
+    // A file without audio is no WAV to listen to: that comes before what was not found in it.
+    let ending = stream.finish()?;
+    let (channel, mut analysis) = listener.finish()?;
+    for drop in &mut analysis.drops {
+        drop.channel += heard.start;
+    }
+    let repairs = ending.warnings.into_iter();
+    let repairs = repairs.map(|message| report::Warning::new("repaired", message));
     analysis.warnings.extend(repairs);
     Ok(Report {
         schema_version: report::SCHEMA_VERSION,
         file: arguments.file.display().to_string(),
         recording: RecordingInfo {
             sample_rate_hz: rate,
-            channels: recording.channels.len(),
-            channel: channel + 1,
-            duration_s: real(recording.channels.first().map_or(0, Vec::len)) / rate,
-            encoding: recording.encoding,
+            channels,
+            channel: heard.start + channel + 1,
+            duration_s: ending.duration_s,
+            encoding,
         },
         settings: SettingsInfo {
             height_m: settings.height_m,

@@ -1,7 +1,8 @@
 //! Where something struck: candidate impacts from samples and a rate. Knows nothing of balls.
 //!
-//! [`quiet`] passes over stretches in which nothing happens. [`filterbank`] splits a stretch of the recording into octaves, [`rise`] measures how surely the energy went up at
-//! each moment, [`peaks`] picks the moments. [`refine`] then times chosen impacts below one sample.
+//! [`quiet`] watches over everything for the little in which something happens. [`filterbank`] splits that into octaves,
+//! [`rise`] measures how surely the energy went up at each moment, [`peaks`] picks the moments. [`refine`] then times
+//! chosen impacts below one sample.
 
 pub mod filterbank;
 pub mod matched;
@@ -61,54 +62,78 @@ pub struct Candidate {
 /// Margin on both sides of a segment that is computed but not reported, in seconds: the reach of the longest filters.
 const MARGIN_S: f64 = 0.25;
 
-/// All moments at which the energy rose, weak ones included, in order of time.
-///
-/// # Errors
-/// [`Error::Argument`] if the rate is too low to hold an octave above [`Settings::lowest_hz`] or a setting is not
-/// positive.
-pub fn candidates(
-    samples: &[f32],
+/// Finds candidates at one rate.
+#[derive(Debug, Clone)]
+pub struct Detector {
+    bank: filterbank::Filterbank,
     sample_rate_hz: f64,
-    settings: &Settings,
-) -> Result<Vec<Candidate>, Error> {
-    settings.check()?;
-    let bank = filterbank::Filterbank::new(sample_rate_hz, settings.hop_s, settings.lowest_hz)?;
-    let hop = bank.hop();
-    // Whole hops, so that the grids of neighbouring segments are one grid.
-    let segment = samples_in(settings.segment_s, sample_rate_hz).div_ceil(hop) * hop;
-    let margin = samples_in(MARGIN_S, sample_rate_hz).div_ceil(hop) * hop;
-    let mut found = Vec::new();
-    let mut start = 0;
-    while start < samples.len() {
-        // A short remainder joins the last segment: too little to learn an ordinary level from.
-        let end = if samples.len() - start < segment + segment / 2 {
-            samples.len()
-        } else {
-            start + segment
-        };
-        let from = start.saturating_sub(margin);
-        let to = (end + margin).min(samples.len());
-        if quiet::is_quiet(&samples[from..to], sample_rate_hz) {
-            start = end;
-            continue;
-        }
-        let evidence = rise::Evidence::of(&bank, &samples[from..to]);
-        let inside = (start - from) / hop..(end - from).div_ceil(hop);
-        let separation = settings.separation_s / bank.hop_s();
-        let peaks = peaks::pick(&evidence.total, separation, settings.weakest);
-        found.extend(
-            peaks
-                .iter()
-                .filter(|p| inside.contains(&p.index))
-                .map(|p| Candidate {
-                    time_s: real(from) / sample_rate_hz + evidence.begin(p.index) * bank.hop_s(),
-                    jitter_s: evidence.jitter_s(p.index),
-                    strength: p.height,
-                }),
-        );
-        start = end;
+    settings: Settings,
+}
+
+impl Detector {
+    /// A detector for samples at this rate.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if the rate is too low to hold an octave above [`Settings::lowest_hz`] or a setting is not
+    /// positive.
+    pub fn new(sample_rate_hz: f64, settings: &Settings) -> Result<Self, Error> {
+        settings.check()?;
+        Ok(Self {
+            bank: filterbank::Filterbank::new(sample_rate_hz, settings.hop_s, settings.lowest_hz)?,
+            sample_rate_hz,
+            settings: settings.clone(),
+        })
     }
-    Ok(found)
+
+    /// Samples per second.
+    #[must_use]
+    pub const fn sample_rate_hz(&self) -> f64 {
+        self.sample_rate_hz
+    }
+
+    /// All moments at which the energy rose, weak ones included, in order of time.
+    #[must_use]
+    pub fn candidates(&self, samples: &[f32]) -> Vec<Candidate> {
+        let hop = self.bank.hop();
+        // Whole hops, so that the grids of neighbouring segments are one grid.
+        let hops = |span_s| samples_in(span_s, self.sample_rate_hz).div_ceil(hop) * hop;
+        let (segment, margin) = (hops(self.settings.segment_s), hops(MARGIN_S));
+        let mut found = Vec::new();
+        let mut start = 0;
+        while start < samples.len() {
+            // A short remainder joins the last segment: too little to learn an ordinary level from.
+            let end = if samples.len() - start < segment + segment / 2 {
+                samples.len()
+            } else {
+                start + segment
+            };
+            let from = start.saturating_sub(margin);
+            let to = (end + margin).min(samples.len());
+            let inside = (start - from) / hop..(end - from).div_ceil(hop);
+            self.add_candidates(&samples[from..to], from, inside, &mut found);
+            start = end;
+        }
+        found
+    }
+
+    /// Adds the candidates of one segment, which begins at the sample `from`, that lie in a range of its hops.
+    fn add_candidates(
+        &self,
+        segment: &[f32],
+        from: usize,
+        inside: std::ops::Range<usize>,
+        found: &mut Vec<Candidate>,
+    ) {
+        let evidence = rise::Evidence::of(&self.bank, segment);
+        let separation = self.settings.separation_s / self.bank.hop_s();
+        let peaks = peaks::pick(&evidence.total, separation, self.settings.weakest);
+        let peaks = peaks.iter().filter(|p| inside.contains(&p.index));
+        found.extend(peaks.map(|p| Candidate {
+            time_s: real(from) / self.sample_rate_hz + evidence.begin(p.index) * self.bank.hop_s(),
+            jitter_s: evidence.jitter_s(p.index),
+            strength: p.height,
+        }));
+    }
 }
 
 /// How many of its strongest candidates speak for a channel.

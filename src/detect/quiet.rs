@@ -1,9 +1,12 @@
-//! A cheap look for stretches in which nothing happens: most of a long recording.
+//! A cheap watch over everything: most of a long recording is nothing but its own noise.
 
 use crate::units::{real, samples_in};
 
 /// Length of the frames whose energies are compared, in seconds: about that of an impact.
 const FRAME_S: f64 = 1e-3;
+/// Length of the units that are judged as a whole, in seconds: short against a drop, so that little silence is kept
+/// with it, and long against a frame.
+const UNIT_S: f64 = 0.25;
 /// Frames that say what is usual.
 const USUAL: usize = 8;
 /// A frame with this many times the usual energy is a reason to look closer. Of the 30 or more independent values of a
@@ -16,61 +19,126 @@ const LOW_FRAMES: usize = 10;
 /// Levels below this mean square are digital silence.
 const SILENCE: f32 = 1e-14;
 
-/// Whether no frame rises out of those before it: neither in the sound itself, nor in its treble (the difference of
-/// neighbouring samples), nor in its bass (the mean of sixteen).
-#[must_use]
-pub fn is_quiet(samples: &[f32], sample_rate_hz: f64) -> bool {
-    let frame = samples_in(FRAME_S, sample_rate_hz).max(2 * LOW);
-    let [mut all, mut high, mut low] = [Past::default(), Past::default(), Past::default()];
-    samples.chunks(frame * LOW_FRAMES).all(|frames| {
-        let mut sharp = frames.chunks_exact(frame);
-        sharp.all(|f| all.goes_on_with(energy(f)) && high.goes_on_with(treble(f)))
-            && low.goes_on_with(bass(frames))
-    })
+/// Listens for frames that rise out of those before them: in the sound itself, in its treble (the difference of
+/// neighbouring samples), or in its bass (the mean of sixteen).
+///
+/// Before the first sample there is silence, so the first sound of a recording always rises.
+#[derive(Debug, Clone)]
+pub struct Watch {
+    frame: usize,
+    unit: usize,
+    all: Past,
+    high: Past,
+    low: Past,
 }
 
-/// The energies of the last frames.
-#[derive(Debug, Default)]
+impl Watch {
+    /// A watch over samples at this rate.
+    #[must_use]
+    pub fn new(sample_rate_hz: f64) -> Self {
+        let frame = samples_in(FRAME_S, sample_rate_hz)
+            .next_multiple_of(LOW)
+            .max(2 * LOW);
+        let unit = samples_in(UNIT_S, sample_rate_hz).next_multiple_of(frame * LOW_FRAMES);
+        Self {
+            frame,
+            unit,
+            all: Past::default(),
+            high: Past::default(),
+            low: Past::default(),
+        }
+    }
+
+    /// Samples of one unit.
+    #[must_use]
+    pub const fn unit(&self) -> usize {
+        self.unit
+    }
+
+    /// Whether anything rises in the next unit; the last one of a recording may be shorter.
+    pub fn rises(&mut self, unit: &[f32]) -> bool {
+        for frames in unit.chunks(self.frame * LOW_FRAMES) {
+            let mut low = 0.0;
+            for frame in frames.chunks_exact(self.frame) {
+                self.all.energies.push(energy(frame));
+                self.high.energies.push(treble(frame));
+                low += bass(frame);
+            }
+            self.low
+                .energies
+                .push(low / narrow((frames.len() / LOW).max(1)));
+        }
+        let scale = 1.0 / narrow(self.frame);
+        // All three have to be told what was heard, whatever the others say.
+        let rises = [
+            self.all.rises(scale),
+            self.high.rises(scale),
+            self.low.rises(1.0),
+        ];
+        rises.contains(&true)
+    }
+}
+
+/// The energies of the last frames, and after them those of the frames to be judged.
+#[derive(Debug, Clone)]
 struct Past {
-    energies: [f32; USUAL],
-    count: usize,
+    energies: Vec<f32>,
+}
+
+impl Default for Past {
+    fn default() -> Self {
+        Self {
+            energies: vec![0.0; USUAL],
+        }
+    }
 }
 
 impl Past {
-    /// Whether a frame is like those before; it then is one of them.
-    fn goes_on_with(&mut self, energy: f32) -> bool {
-        let usual = self.energies.iter().sum::<f32>() / narrow(USUAL);
-        let known = self.count >= USUAL;
-        self.energies[self.count % USUAL] = energy;
-        self.count += 1;
-        !known || energy <= RISE * usual.max(SILENCE)
+    /// Whether any frame exceeds the mean of those before it; they then all are past. `scale` makes mean squares of
+    /// the energies.
+    fn rises(&mut self, scale: f32) -> bool {
+        let usual_scale = RISE / narrow(USUAL);
+        let least = RISE * SILENCE / scale;
+        let frames = &self.energies[USUAL..];
+        // One window after the other, but without a way out of the loop: so the machine's vectors can be used.
+        let mut highest = f32::NEG_INFINITY;
+        for (energy, before) in frames.iter().zip(self.energies.windows(USUAL)) {
+            let sum = (before[0] + before[1] + before[2] + before[3])
+                + (before[4] + before[5] + before[6] + before[7]);
+            highest = highest.max(energy - (usual_scale * sum).max(least));
+        }
+        let known = self.energies.len() - USUAL;
+        self.energies.drain(..known);
+        highest > 0.0
     }
 }
 
 /// Lanes that are summed side by side, so that the compiler can use the machine's vectors.
 const LANES: usize = 8;
 
+/// Σ x².
 fn energy(frame: &[f32]) -> f32 {
-    sum_of_squares(frame.as_chunks::<LANES>().0.iter().copied()) / narrow(frame.len())
+    sum_of_squares(frame.as_chunks::<LANES>().0.iter().copied())
 }
 
+/// Σ (x\[i+1\] − x\[i\])².
 fn treble(frame: &[f32]) -> f32 {
     let pairs = frame[1..]
         .as_chunks::<LANES>()
         .0
         .iter()
         .zip(frame.as_chunks::<LANES>().0);
-    let differences = pairs.map(|(a, b)| std::array::from_fn(|i| a[i] - b[i]));
-    sum_of_squares(differences) / narrow(frame.len())
+    sum_of_squares(pairs.map(|(a, b)| std::array::from_fn(|i| a[i] - b[i])))
 }
 
+/// Σ m², m being the means of sixteen samples.
 fn bass(frame: &[f32]) -> f32 {
-    let means = frame
-        .as_chunks::<LOW>()
-        .0
-        .iter()
-        .map(|c| c.iter().sum::<f32>() / narrow(LOW));
-    means.map(|m| m * m).sum::<f32>() / narrow((frame.len() / LOW).max(1))
+    let means = frame.as_chunks::<LOW>().0.iter().map(|c| {
+        let halves: [f32; 8] = std::array::from_fn(|i| c[i] + c[i + 8]);
+        let quarters: [f32; 4] = std::array::from_fn(|i| halves[i] + halves[i + 4]);
+        (quarters[0] + quarters[2]) + (quarters[1] + quarters[3])
+    });
+    means.map(|m| m * m).sum::<f32>() / narrow(LOW * LOW)
 }
 
 fn sum_of_squares(chunks: impl Iterator<Item = [f32; LANES]>) -> f32 {
@@ -93,6 +161,8 @@ mod tests {
     use super::*;
     use crate::random::SplitMix64;
 
+    const RATE_HZ: f64 = 48_000.0;
+
     fn noise_with(click: f32) -> Vec<f32> {
         let mut rng = SplitMix64::new(9);
         #[expect(clippy::cast_possible_truncation, reason = "test noise")]
@@ -103,23 +173,42 @@ mod tests {
         noise
     }
 
-    #[test]
-    fn noise_is_quiet_and_a_click_in_it_is_not() {
-        assert!(is_quiet(&noise_with(0.0), 48_000.0));
-        assert!(!is_quiet(&noise_with(0.04), 48_000.0));
+    /// The units, by the second they begin in, in which something rises.
+    fn restless_s(samples: &[f32]) -> Vec<f64> {
+        let mut watch = Watch::new(RATE_HZ);
+        let unit = watch.unit();
+        let units = samples.chunks(unit).enumerate();
+        let restless = units.filter(|(_, u)| watch.rises(u));
+        restless.map(|(i, _)| real(i * unit) / RATE_HZ).collect()
     }
 
     #[test]
-    fn a_thud_under_hiss_is_not_quiet() {
+    fn only_the_beginning_of_noise_and_a_click_in_it_rise() {
+        assert_eq!(restless_s(&noise_with(0.0)), [0.0]);
+        let found = restless_s(&noise_with(0.04));
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert!((4.7..=5.0).contains(&found[1]), "{found:?}");
+    }
+
+    #[test]
+    fn a_click_at_the_very_start_of_a_unit_rises_out_of_the_unit_before() {
+        let mut sound = noise_with(0.0);
+        let border = Watch::new(RATE_HZ).unit();
+        sound[8 * border] = 0.3;
+        assert_eq!(restless_s(&sound), [0.0, real(8 * border) / RATE_HZ]);
+    }
+
+    #[test]
+    fn a_thud_under_hiss_rises() {
         let mut sound = noise_with(0.0);
         for (i, x) in sound[240_000..240_480].iter_mut().enumerate() {
             *x += 0.012 * (std::f32::consts::PI * narrow(i) / 120.0).sin();
         }
-        assert!(!is_quiet(&sound, 48_000.0));
+        assert_eq!(restless_s(&sound).len(), 2);
     }
 
     #[test]
     fn silence_is_quiet() {
-        assert!(is_quiet(&vec![0.0; 48_000], 48_000.0));
+        assert!(restless_s(&vec![0.0; 48_000]).is_empty());
     }
 }

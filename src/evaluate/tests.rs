@@ -48,6 +48,7 @@ fn impact(time_s: f64) -> Impact {
 
 fn drop_of(times_s: &[f64], e: f64, half_width: f64) -> Drop {
     Drop {
+        channel: 1,
         impacts: times_s.iter().map(|&t| impact(t)).collect(),
         bounces: times_s.len(),
         observed_time_s: 0.0,

@@ -36,7 +36,7 @@ pub struct RecordingInfo {
     pub sample_rate_hz: f64,
     /// How many channels there are.
     pub channels: usize,
-    /// Which one was listened to, counted from 1.
+    /// The one that most drops were heard on, counted from 1.
     pub channel: usize,
     /// Seconds.
     pub duration_s: f64,
@@ -77,6 +77,8 @@ pub struct Analysis {
 /// One drop.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Drop {
+    /// The channel it was heard on, counted from 1: the one in which impacts stood out most then.
+    pub channel: usize,
     /// The impacts in order of time.
     pub impacts: Vec<Impact>,
     /// How many were heard, doubtful ones included.

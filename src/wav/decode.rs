@@ -1,125 +1,124 @@
-//! Blocks of bytes into samples.
+//! Blocks of bytes into samples of each channel.
 
-use std::io::Read;
-
-use super::container::{Container, SampleKind, fill};
-use crate::Error;
-
-/// Bytes read at a time: small enough for the cache, large enough that the call costs nothing.
-const BLOCK_BYTES: usize = 1 << 16;
-
-/// How much of the claimed audio was there.
-#[derive(Debug, Clone, Copy)]
-pub struct Frames {
-    /// Whole frames read.
-    pub whole: u64,
-    /// Bytes after the last whole frame.
-    pub torn_bytes: usize,
-}
-
-impl Frames {
-    /// What a user should know about the length.
-    #[must_use]
-    pub fn warnings(self, container: &Container) -> Vec<String> {
-        let mut warnings = Vec::new();
-        let frame_bytes = container.frame_bytes() as u64;
-        match container.claimed_bytes {
-            None => {
-                warnings.push("the header gives no length; read to the end of the file".to_owned());
-            }
-            Some(claimed) if self.whole < claimed / frame_bytes => {
-                let missing = claimed / frame_bytes - self.whole;
-                warnings.push(format!(
-                    "the file ends {missing} frames before its header says; the rest was read"
-                ));
-            }
-            Some(_) => {}
-        }
-        if self.torn_bytes > 0 {
-            warnings.push(format!(
-                "{} bytes after the last whole frame were left out",
-                self.torn_bytes
-            ));
-        }
-        warnings
-    }
-}
-
-/// Decodes the stream block by block: `each` gets interleaved samples of whole frames, full scale being ±1.
-///
-/// # Errors
-/// [`Error::Io`] if reading fails.
-pub fn for_each_block(
-    stream: &mut impl Read,
-    container: &Container,
-    mut each: impl FnMut(&[f32]),
-) -> Result<Frames, Error> {
-    let frame_bytes = container.frame_bytes();
-    let block_bytes = (BLOCK_BYTES / frame_bytes).max(1) * frame_bytes;
-    let mut bytes = vec![0; block_bytes];
-    let mut samples = Vec::with_capacity(block_bytes / usize::from(container.bytes_per_sample));
-    let mut left = container.claimed_bytes.unwrap_or(u64::MAX);
-    let mut frames = Frames {
-        whole: 0,
-        torn_bytes: 0,
-    };
-    while left > 0 && frames.torn_bytes == 0 {
-        let wanted = usize::try_from(left).map_or(block_bytes, |left| left.min(block_bytes));
-        let got = fill(stream, &mut bytes[..wanted])?;
-        if got == 0 {
-            break;
-        }
-        left -= got as u64;
-        frames.torn_bytes = got % frame_bytes;
-        frames.whole += (got / frame_bytes) as u64;
-        samples.clear();
-        decode(&bytes[..got - frames.torn_bytes], container, &mut samples);
-        each(&samples);
-    }
-    Ok(frames)
-}
+use super::container::{Container, SampleKind};
 
 /// Full scale of 32-bit integers.
 const FULL_SCALE_32: f32 = 65_536.0 * 32_768.0;
 
+/// Adds the samples of whole frames to those of each channel, full scale being ±1.
+///
 /// Full scale of each integer width is a power of two, so scaling is exact; 32-bit integers are rounded to the
 /// 24 bits of an `f32`, which is below the noise of any microphone.
 #[expect(
     clippy::cast_precision_loss,
     reason = "an f32 keeps 24 bits, more than a microphone gives"
 )]
-fn decode(bytes: &[u8], container: &Container, samples: &mut Vec<f32>) {
+pub(super) fn decode(bytes: &[u8], container: &Container, channels: &mut [Vec<f32>]) {
     match (container.kind, container.bytes_per_sample) {
-        (SampleKind::Unsigned8, _) => {
-            samples.extend(bytes.iter().map(|&b| (f32::from(b) - 128.0) / 128.0));
+        (SampleKind::Unsigned8, _) => spread(bytes, channels, |&[b]| {
+            (f32::from(b) - 128.0) * (1.0 / 128.0)
+        }),
+        (SampleKind::Signed, 2) => spread(bytes, channels, |&b| {
+            f32::from(i16::from_le_bytes(b)) * (1.0 / 32_768.0)
+        }),
+        (SampleKind::Signed, 3) => spread(bytes, channels, |&[a, b, c]| {
+            i32::from_le_bytes([0, a, b, c]) as f32 * (1.0 / FULL_SCALE_32)
+        }),
+        (SampleKind::Signed, _) => spread(bytes, channels, |&b| {
+            i32::from_le_bytes(b) as f32 * (1.0 / FULL_SCALE_32)
+        }),
+        (SampleKind::Float32, _) => spread(bytes, channels, |&b| f32::from_le_bytes(b)),
+    }
+}
+
+/// Deals interleaved samples of `N` bytes out to their channels. One and two channels are most of what there is, and
+/// have loops that the compiler can turn into the machine's vectors.
+fn spread<const N: usize>(
+    bytes: &[u8],
+    channels: &mut [Vec<f32>],
+    sample: impl Fn(&[u8; N]) -> f32,
+) {
+    let samples = bytes.as_chunks::<N>().0;
+    match channels {
+        [only] => only.extend(samples.iter().map(sample)),
+        [left, right] => {
+            let pairs = samples.as_chunks::<2>().0;
+            left.extend(pairs.iter().map(|[l, _]| sample(l)));
+            right.extend(pairs.iter().map(|[_, r]| sample(r)));
         }
-        (SampleKind::Signed, 2) => samples.extend(
-            bytes
-                .as_chunks::<2>()
-                .0
-                .iter()
-                .map(|&b| f32::from(i16::from_le_bytes(b)) / 32_768.0),
-        ),
-        (SampleKind::Signed, 3) => samples.extend(
-            bytes
-                .as_chunks::<3>()
-                .0
-                .iter()
-                .map(|&[a, b, c]| i32::from_le_bytes([0, a, b, c]) as f32 / FULL_SCALE_32),
-        ),
-        (SampleKind::Signed, _) => samples.extend(
-            bytes
-                .as_chunks::<4>()
-                .0
-                .iter()
-                .map(|&b| i32::from_le_bytes(b) as f32 / FULL_SCALE_32),
-        ),
-        (SampleKind::Float32, _) => samples.extend(
-            bytes
-                .as_chunks::<4>()
-                .0
-                .iter()
-                .map(|&b| f32::from_le_bytes(b)),
-        ),
+        _ => {
+            let count = channels.len();
+            for (c, channel) in channels.iter_mut().enumerate() {
+                channel.extend(samples.iter().skip(c).step_by(count).map(&sample));
+            }
+        }
+    }
+}
+
+/// A NaN would reach every sum that touches it; a zero is a sample of silence. Gives how many there were.
+pub(super) fn zero_what_is_not_finite(channels: &mut [Vec<f32>]) -> usize {
+    let mut marked = 0;
+    for x in channels.iter_mut().flatten() {
+        if !x.is_finite() {
+            *x = 0.0;
+            marked += 1;
+        }
+    }
+    marked
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn decoded(
+        kind: SampleKind,
+        bytes_per_sample: u16,
+        channels: u16,
+        bytes: &[u8],
+    ) -> Vec<Vec<f32>> {
+        let container = Container {
+            kind,
+            bytes_per_sample,
+            channels,
+            sample_rate_hz: 44_100,
+            claimed_bytes: None,
+            warnings: Vec::new(),
+        };
+        let mut out = vec![Vec::new(); usize::from(channels)];
+        decode(bytes, &container, &mut out);
+        out
+    }
+
+    #[test]
+    fn every_width_has_its_full_scale() {
+        for (kind, width, bytes, value) in [
+            (SampleKind::Unsigned8, 1, &[0][..], -1.0),
+            (SampleKind::Signed, 2, &[0, 0x80], -1.0),
+            (SampleKind::Signed, 3, &[0, 0, 0x40], 0.5),
+            (SampleKind::Signed, 4, &[0, 0, 0, 0xC0], -0.5),
+            (SampleKind::Float32, 4, &[0, 0, 0x80, 0x3E], 0.25),
+        ] {
+            assert_eq!(
+                decoded(kind, width, 1, bytes),
+                [[value]],
+                "{kind:?} {width}"
+            );
+        }
+    }
+
+    #[test]
+    fn each_channel_gets_its_own_samples() {
+        for channels in 1..=5_u16 {
+            let samples = (0..3 * channels).flat_map(|i| i.cast_signed().to_le_bytes());
+            let bytes: Vec<u8> = samples.collect();
+            let out = decoded(SampleKind::Signed, 2, channels, &bytes);
+            for (c, channel) in (0..channels).zip(&out) {
+                let expected: Vec<f32> = (0..3)
+                    .map(|frame| f32::from(frame * channels + c) / 32_768.0)
+                    .collect();
+                assert_eq!(channel, &expected, "channel {c} of {channels}");
+            }
+        }
     }
 }

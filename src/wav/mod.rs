@@ -1,16 +1,18 @@
 //! From the bytes of a WAV file to the samples of each channel, in blocks.
 //!
-//! [`container`] finds the samples and [`decode`] turns blocks of bytes into numbers. Reading works on any [`std::io::Read`], so a pipe is as good as a file.
+//! [`container`] finds the samples, [`stream`] reads them block by block, from any [`std::io::Read`], so a pipe is as
+//! good as a file. [`read`] holds a whole recording in memory.
 
 pub mod container;
-pub mod decode;
+mod decode;
+pub mod stream;
 
-use std::fs::File;
-use std::io::{BufReader, Read};
+use std::io::Read;
 use std::path::Path;
 
+pub use stream::{Ending, Stream};
+
 use crate::Error;
-use container::Container;
 
 /// A recording in memory: one vector of samples for each channel, full scale being ±1.
 #[derive(Debug, Clone)]
@@ -31,43 +33,33 @@ pub struct Recording {
 /// [`Error::InFile`] naming the file, with the reason: it cannot be opened, is a directory, is empty, is no WAV, or
 /// holds no audio.
 pub fn read_file(path: &Path) -> Result<Recording, Error> {
-    let open = || -> Result<Recording, Error> {
-        if path.is_dir() {
-            return Err(wav("it is a directory"));
-        }
-        read(BufReader::with_capacity(1 << 16, File::open(path)?))
-    };
-    open().map_err(|e| e.in_file(path))
+    whole(Stream::open_file(path)?).map_err(|e| e.in_file(path))
 }
 
 /// Reads a WAV stream to its end.
 ///
 /// # Errors
 /// [`Error::Wav`] if it is no WAV or holds no audio; [`Error::Io`] if reading fails.
-pub fn read(mut stream: impl Read) -> Result<Recording, Error> {
-    let mut container = Container::open(&mut stream)?;
-    let mut channels = vec![Vec::new(); usize::from(container.channels)];
-    let frames = decode::for_each_block(&mut stream, &container, |block| {
-        let count = channels.len();
-        for (c, samples) in channels.iter_mut().enumerate() {
-            samples.extend(block.iter().skip(c).step_by(count));
+pub fn read(source: impl Read) -> Result<Recording, Error> {
+    whole(Stream::open(source)?)
+}
+
+fn whole(mut stream: Stream<impl Read>) -> Result<Recording, Error> {
+    let mut channels = vec![Vec::new(); usize::from(stream.container().channels)];
+    while let Some(block) = stream.next_block()? {
+        for (samples, new) in channels.iter_mut().zip(block) {
+            samples.extend_from_slice(new);
         }
-    })?;
-    if frames.whole == 0 {
-        return Err(wav("it holds no audio"));
     }
-    container.warnings.extend(frames.warnings(&container));
-    let marked = zero_what_is_not_finite(&mut channels);
-    if marked > 0 {
-        container.warnings.push(format!(
-            "{marked} samples are not finite numbers and were read as zero"
-        ));
-    }
+    let (sample_rate_hz, encoding) = (
+        stream.container().sample_rate_hz,
+        stream.container().encoding(),
+    );
     Ok(Recording {
-        sample_rate_hz: container.sample_rate_hz,
+        sample_rate_hz,
         channels,
-        encoding: container.encoding(),
-        warnings: container.warnings,
+        encoding,
+        warnings: stream.finish()?.warnings,
     })
 }
 
@@ -76,16 +68,4 @@ pub(crate) fn wav(problem: impl Into<String>) -> Error {
     Error::Wav {
         problem: problem.into(),
     }
-}
-
-/// A NaN would reach every sum that touches it; a zero is a sample of silence. Gives how many there were.
-fn zero_what_is_not_finite(channels: &mut [Vec<f32>]) -> usize {
-    let mut marked = 0;
-    for x in channels.iter_mut().flat_map(|samples| samples.iter_mut()) {
-        if !x.is_finite() {
-            *x = 0.0;
-            marked += 1;
-        }
-    }
-    marked
 }

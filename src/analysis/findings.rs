@@ -1,0 +1,116 @@
+//! What was found so far, scene by scene, and what it comes to in the end.
+
+use super::drop::Measured;
+use super::scene::{Heard, clearest};
+use super::warnings::{self, Heard as Sounds};
+use crate::report::{Analysis, Rejected};
+
+/// How many rejected events of a recording are named, the strongest; the rest is counted.
+const NAMED: usize = 50;
+/// Impacts that are kept, of the drops with the most evidence: some hours of one drop after another. A document of
+/// more would outgrow the memory.
+const MOST_IMPACTS: usize = 100_000;
+
+/// What was found in the scenes so far.
+#[derive(Debug, Default)]
+pub(super) struct Findings {
+    drops: Vec<Measured>,
+    impacts: usize,
+    /// Drops that there was no room for.
+    left_out: usize,
+    /// Drops that were cut in two.
+    torn: usize,
+    rejected: Vec<(f64, Rejected)>,
+    weak: usize,
+    sounds: Sounds,
+    clarities: Vec<f64>,
+    /// Times of the impacts of the last scene.
+    told_s: Vec<f64>,
+}
+
+impl Findings {
+    pub(super) fn new(channels: usize) -> Self {
+        Self {
+            clarities: vec![0.0; channels],
+            ..Self::default()
+        }
+    }
+
+    /// Impacts told already from a time on, ascending.
+    pub(super) fn told_after(&self, time_s: f64) -> &[f64] {
+        &self.told_s[self.told_s.partition_point(|&t| t < time_s)..]
+    }
+
+    /// Adds what was heard in the next scene.
+    pub(super) fn add(&mut self, heard: Heard) {
+        let impacts = heard.drops.iter().flat_map(|m| &m.drop.impacts);
+        self.told_s = impacts.map(|i| i.time_s).collect();
+        self.told_s.sort_by(f64::total_cmp);
+        self.impacts += self.told_s.len();
+        self.drops.extend(heard.drops);
+        self.keep_the_surest();
+        self.rejected.extend(heard.rejected);
+        self.weak += heard.weak;
+        self.keep_the_strongest();
+        self.torn += heard.torn;
+        self.sounds.add(heard.sound, &heard.strengths);
+        for (sum, clarity) in self.clarities.iter_mut().zip(heard.clarities) {
+            *sum += clarity;
+        }
+    }
+
+    fn keep_the_surest(&mut self) {
+        while self.impacts > MOST_IMPACTS {
+            let evidence = |i: &usize| self.drops[*i].drop.evidence_nats;
+            let weakest = (0..self.drops.len()).min_by(|a, b| evidence(a).total_cmp(&evidence(b)));
+            let Some(weakest) = weakest else { return };
+            self.impacts -= self.drops.remove(weakest).drop.impacts.len();
+            self.left_out += 1;
+        }
+    }
+
+    fn keep_the_strongest(&mut self) {
+        if self.rejected.len() > NAMED {
+            self.rejected.sort_by(|a, b| b.0.total_cmp(&a.0));
+            self.weak += self.rejected.len() - NAMED;
+            self.rejected.truncate(NAMED);
+        }
+    }
+
+    /// The whole of it, and the channel that most of it was heard on; listening ended at `end_s`.
+    pub(super) fn analysis(mut self, end_s: f64) -> (usize, Analysis) {
+        let channel = self.channel();
+        self.rejected
+            .sort_by(|a, b| a.1.time_s.total_cmp(&b.1.time_s));
+        let mut warnings = Vec::new();
+        if self.drops.is_empty() {
+            warnings.push(self.sounds.warning());
+        }
+        warnings.extend(warnings::of_memory(self.left_out, self.torn));
+        let analysis = Analysis {
+            drops: self.drops.into_iter().map(|m| m.until(end_s)).collect(),
+            rejected: self.rejected.into_iter().map(|(_, r)| r).collect(),
+            rejected_weak: self.weak,
+            warnings,
+        };
+        (channel, analysis)
+    }
+
+    /// The channel of most drops; of several, or where there are none, the clearest.
+    fn channel(&self) -> usize {
+        let mut counts = vec![0_usize; self.clarities.len()];
+        for m in &self.drops {
+            counts[m.drop.channel - 1] += 1;
+        }
+        let most = counts.iter().copied().max().unwrap_or(0);
+        let of_most = |(count, clarity): (&usize, &f64)| {
+            if *count == most {
+                *clarity
+            } else {
+                f64::NEG_INFINITY
+            }
+        };
+        let clarities: Vec<f64> = counts.iter().zip(&self.clarities).map(of_most).collect();
+        clearest(&clarities)
+    }
+}

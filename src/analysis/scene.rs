@@ -1,0 +1,196 @@
+//! A stretch of sound in which something happens: which channel hears it best, and the drops in it.
+
+use super::drop::{self, Measured};
+use super::{Settings, Stretch, rejected, tail};
+use crate::Error;
+use crate::detect::{Candidate, Detector, clarity};
+use crate::report::Rejected;
+use crate::sequence::{self, Chain, Event, Found};
+use crate::units::real;
+
+/// Where a scene is in its recording.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Bounds {
+    /// Its first frame.
+    pub first: usize,
+    /// First frame of the recording that was listened to.
+    pub listened_from: usize,
+    /// Whether it goes on, because there was no room for all of it.
+    pub cut: bool,
+}
+
+/// What was heard in a scene.
+#[derive(Debug)]
+pub(super) struct Heard {
+    /// The drops, in order of time.
+    pub drops: Vec<Measured>,
+    /// Strong events outside the drops, with their strengths.
+    pub rejected: Vec<(f64, Rejected)>,
+    /// How many weaker ones there were.
+    pub weak: usize,
+    /// Strengths of all events on the channel that was listened to.
+    pub strengths: Vec<f64>,
+    /// How clearly each channel heard.
+    pub clarities: Vec<f64>,
+    /// Whether there was any sound.
+    pub sound: bool,
+    /// Drops that were cut in two.
+    pub torn: usize,
+    /// What happened before this is settled; what happened later has to be heard again with what follows.
+    pub settled_s: f64,
+}
+
+/// Listens to the channel of a scene in which impacts stand out most.
+///
+/// `told_s` are impacts in it that were told already, when its first part was heard.
+pub(super) fn hear(
+    channels: &[&[f32]],
+    bounds: &Bounds,
+    told_s: &[f64],
+    detector: &Detector,
+    settings: &Settings,
+) -> Result<Heard, Error> {
+    let candidates: Vec<Vec<Candidate>> = channels.iter().map(|c| detector.candidates(c)).collect();
+    let clarities: Vec<f64> = candidates.iter().map(|c| clarity(c)).collect();
+    let channel = clearest(&clarities);
+    let rate = detector.sample_rate_hz();
+    let stretch = Stretch {
+        samples: channels[channel],
+        sample_rate_hz: rate,
+        start_s: real(bounds.first) / rate,
+        listened_from_s: real(bounds.listened_from) / rate,
+        hop_s: settings.detect.hop_s,
+    };
+    let events = stretch.events(&candidates[channel]);
+    let found = sequence::find(&events, &settings.sequence)?;
+    let edge = Edge::of(&stretch, bounds.cut, &found);
+    let rejected = rejected_before(edge.settled_s, told_s, &events, &found);
+    let weak = weak_before(edge.settled_s, &events, &found);
+    let mut all = events.clone();
+    let mut drops = Vec::new();
+    for chain in found.drops {
+        if edge.waits(&chain) || is_told(&chain, told_s) {
+            continue;
+        }
+        let chain = tail::follow(&stretch, chain, &mut all, &settings.sequence);
+        drops.push(drop::measure(&stretch, &chain, channel, settings)?);
+    }
+    Ok(Heard {
+        drops,
+        rejected,
+        weak,
+        strengths: events.iter().map(|e| e.strength).collect(),
+        sound: channels.iter().any(|c| c.iter().any(|x| *x != 0.0)),
+        clarities,
+        torn: edge.torn,
+        settled_s: edge.settled_s,
+    })
+}
+
+/// The first of the channels that hear most clearly.
+pub(super) fn clearest(clarities: &[f64]) -> usize {
+    let best = clarities.iter().enumerate().rev();
+    best.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(c, _)| c)
+}
+
+/// Where a scene is cut that does not end.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    /// Drops that begin before this do not wait for the rest: they have lasted for half of what can be held.
+    oldest_s: f64,
+    /// Drops whose next impacts would be later than this may go on.
+    end_s: f64,
+    settled_s: f64,
+    torn: usize,
+}
+
+/// A drop may go on if so many flights like its last do not fit before the cut: some impacts may be too faint …
+const OPEN_FLIGHTS: f64 = 5.0;
+/// … or this much time, in seconds.
+const OPEN_S: f64 = 0.1;
+/// So much is heard again with what follows, in seconds: flights of a drop that has not made four impacts yet.
+const AGAIN_S: f64 = 6.0;
+/// Audio before its first impact that a drop is heard again with, in seconds.
+const LEAD_S: f64 = 1.0;
+
+impl Edge {
+    fn of(stretch: &Stretch<'_>, cut: bool, found: &Found) -> Self {
+        let end_s = stretch.end_s();
+        let mut edge = Self {
+            oldest_s: 0.5 * (stretch.start_s + end_s),
+            end_s,
+            settled_s: f64::INFINITY,
+            torn: 0,
+        };
+        if !cut {
+            edge.end_s = f64::INFINITY;
+            return edge;
+        }
+        let (waiting, told): (Vec<&Chain>, Vec<&Chain>) =
+            found.drops.iter().partition(|chain| edge.waits(chain));
+        let first_s = waiting.iter().map(|chain| chain.span_s().0 - LEAD_S);
+        edge.settled_s = first_s.fold((end_s - AGAIN_S).max(edge.oldest_s), f64::min);
+        // These last longer than what can be held: their later parts will be other drops.
+        let torn = told.iter().filter(|chain| edge.is_open(chain));
+        let torn_s: Vec<f64> = torn.map(|chain| chain.span_s().1).collect();
+        edge.torn = torn_s.len();
+        edge.settled_s = torn_s.into_iter().fold(edge.settled_s, f64::max);
+        edge
+    }
+
+    /// Whether a drop may go on past the cut.
+    fn is_open(&self, chain: &Chain) -> bool {
+        let last_s = chain.span_s().1;
+        let before_s = chain.links.iter().rev().nth(1).map_or(0.0, |l| l.time_s);
+        last_s + OPEN_FLIGHTS * (last_s - before_s) + OPEN_S > self.end_s
+    }
+
+    /// Whether a drop has to be heard again with what follows.
+    fn waits(&self, chain: &Chain) -> bool {
+        self.is_open(chain) && chain.span_s().0 - LEAD_S > self.oldest_s
+    }
+}
+
+/// An impact was told already if one was told within this time of it, in seconds.
+const SAME_S: f64 = 2e-3;
+
+fn is_known(time_s: f64, told_s: &[f64]) -> bool {
+    let at = told_s.partition_point(|&t| t < time_s - SAME_S);
+    told_s.get(at).is_some_and(|&t| t <= time_s + SAME_S)
+}
+
+/// Whether a chain is the later part of a drop that was told already.
+fn is_told(chain: &Chain, told_s: &[f64]) -> bool {
+    let known = chain.links.iter().filter(|l| is_known(l.time_s, told_s));
+    2 * known.count() > chain.links.len()
+}
+
+fn rejected_before(
+    settled_s: f64,
+    told_s: &[f64],
+    events: &[Event],
+    found: &Found,
+) -> Vec<(f64, Rejected)> {
+    let settled = found.rejected.iter().filter(|r| r.time_s < settled_s);
+    let new = settled.filter(|r| !is_known(r.time_s, told_s));
+    new.map(|r| {
+        let event = events.partition_point(|e| e.time_s < r.time_s);
+        let strength = events.get(event).map_or(0.0, |e| e.strength);
+        (strength, rejected(r))
+    })
+    .collect()
+}
+
+/// Events before a time that are neither an impact nor named.
+fn weak_before(settled_s: f64, events: &[Event], found: &Found) -> usize {
+    let named = |chain: &Chain| {
+        let links = chain.links.iter().filter(|l| l.event.is_some());
+        let times = links.map(|l| l.time_s);
+        let rejected = chain.rejected.iter().map(|r| r.time_s);
+        times.chain(rejected).filter(|&t| t < settled_s).count()
+    };
+    let settled = events.partition_point(|e| e.time_s < settled_s);
+    let outside = found.rejected.iter().filter(|r| r.time_s < settled_s);
+    let in_drops: usize = found.drops.iter().map(named).sum();
+    settled.saturating_sub(in_drops + outside.count())
+}

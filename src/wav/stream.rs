@@ -1,0 +1,147 @@
+//! A WAV stream, read in blocks: what is held does not grow with its length.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use super::container::{Container, fill};
+use super::{decode, wav};
+use crate::Error;
+use crate::units::real;
+
+/// Bytes read at a time: as many as a pipe holds, and their samples still fit the cache.
+const BLOCK_BYTES: usize = 1 << 16;
+
+/// A WAV stream that stands at its samples.
+#[derive(Debug)]
+pub struct Stream<R> {
+    source: R,
+    container: Container,
+    bytes: Vec<u8>,
+    /// The last block, channel by channel.
+    block: Vec<Vec<f32>>,
+    /// Bytes that may still come.
+    left: u64,
+    /// Whole frames read.
+    frames: u64,
+    /// Bytes after the last whole frame.
+    torn_bytes: usize,
+    not_finite: usize,
+}
+
+/// What is known of a recording once it was read.
+#[derive(Debug, Clone)]
+pub struct Ending {
+    /// Length in seconds.
+    pub duration_s: f64,
+    /// What was repaired while reading.
+    pub warnings: Vec<String>,
+}
+
+impl Stream<File> {
+    /// Opens a file.
+    ///
+    /// # Errors
+    /// [`Error::InFile`] naming the file, with the reason: it cannot be opened, is a directory, is empty, or is no WAV.
+    pub fn open_file(path: &Path) -> Result<Self, Error> {
+        let open = || -> Result<Self, Error> {
+            if path.is_dir() {
+                return Err(wav("it is a directory"));
+            }
+            // Blocks are large: a buffer in between would only copy them.
+            Self::open(File::open(path)?)
+        };
+        open().map_err(|e| e.in_file(path))
+    }
+}
+
+impl<R: Read> Stream<R> {
+    /// Walks to the samples.
+    ///
+    /// # Errors
+    /// [`Error::Wav`] if it is no WAV; [`Error::Io`] if reading fails.
+    pub fn open(mut source: R) -> Result<Self, Error> {
+        let container = Container::open(&mut source)?;
+        let frame_bytes = container.frame_bytes();
+        Ok(Self {
+            source,
+            bytes: vec![0; (BLOCK_BYTES / frame_bytes).max(1) * frame_bytes],
+            block: vec![Vec::new(); usize::from(container.channels)],
+            left: container.claimed_bytes.unwrap_or(u64::MAX),
+            frames: 0,
+            torn_bytes: 0,
+            not_finite: 0,
+            container,
+        })
+    }
+
+    /// What the header says.
+    #[must_use]
+    pub const fn container(&self) -> &Container {
+        &self.container
+    }
+
+    /// The next samples of each channel, full scale being ±1; none at the end.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if reading fails.
+    pub fn next_block(&mut self) -> Result<Option<&[Vec<f32>]>, Error> {
+        if self.torn_bytes > 0 {
+            return Ok(None);
+        }
+        let wanted =
+            usize::try_from(self.left).map_or(self.bytes.len(), |left| left.min(self.bytes.len()));
+        let got = fill(&mut self.source, &mut self.bytes[..wanted])?;
+        let frame_bytes = self.container.frame_bytes();
+        self.left -= got as u64;
+        self.torn_bytes = got % frame_bytes;
+        self.frames += (got / frame_bytes) as u64;
+        self.block.iter_mut().for_each(Vec::clear);
+        let whole = &self.bytes[..got - self.torn_bytes];
+        decode::decode(whole, &self.container, &mut self.block);
+        if self.container.kind == super::container::SampleKind::Float32 {
+            self.not_finite += decode::zero_what_is_not_finite(&mut self.block);
+        }
+        Ok((!whole.is_empty()).then_some(self.block.as_slice()))
+    }
+
+    /// What is known after the last block.
+    ///
+    /// # Errors
+    /// [`Error::Wav`] if there was no audio.
+    pub fn finish(self) -> Result<Ending, Error> {
+        if self.frames == 0 {
+            return Err(wav("it holds no audio"));
+        }
+        let mut warnings = self.container.warnings.clone();
+        warnings.extend(self.length_warning());
+        if self.torn_bytes > 0 {
+            warnings.push(format!(
+                "{} bytes after the last whole frame were left out",
+                self.torn_bytes
+            ));
+        }
+        if self.not_finite > 0 {
+            warnings.push(format!(
+                "{} samples are not finite numbers and were read as zero",
+                self.not_finite
+            ));
+        }
+        let frames = usize::try_from(self.frames).map_or(f64::INFINITY, real);
+        Ok(Ending {
+            duration_s: frames / f64::from(self.container.sample_rate_hz),
+            warnings,
+        })
+    }
+
+    /// Whether the header told the truth about the length.
+    fn length_warning(&self) -> Option<String> {
+        let Some(claimed) = self.container.claimed_bytes else {
+            return Some("the header gives no length; read to the end of the file".to_owned());
+        };
+        let missing = (claimed / self.container.frame_bytes() as u64).saturating_sub(self.frames);
+        (missing > 0).then(|| {
+            format!("the file ends {missing} frames before its header says; the rest was read")
+        })
+    }
+}
