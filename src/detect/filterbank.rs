@@ -77,76 +77,92 @@ impl Filterbank {
         low.resize(hops * self.hop, 0.0);
         let mut per_hop = self.hop;
         let mut dilation = 1;
+        let mut padded = Vec::new();
         self.widths_hz
             .iter()
             .map(|&width_hz| {
-                let high = if per_hop > 1 {
+                let energies = if per_hop > 1 {
                     per_hop /= 2;
-                    self.decimate(&mut low)
+                    let mut squares = self.decimate(&mut low, &mut padded);
+                    average(&mut squares, per_hop);
+                    squares
                 } else {
-                    let high = self.divide(&mut low, dilation);
+                    let squares = self.divide(&mut low, dilation, &mut padded);
                     dilation *= 2;
-                    high
+                    squares
                 };
-                Band {
-                    width_hz,
-                    energies: mean_squares(&high, per_hop),
-                }
+                Band { width_hz, energies }
             })
             .collect()
     }
 
-    /// Splits at a quarter of the rate and keeps every second sample: `low` becomes the low half, the high half is
-    /// returned. Output `m` stands at the time of input `2m`.
-    fn decimate(&self, low: &mut Vec<f32>) -> Vec<f32> {
+    /// Splits at a quarter of the rate and keeps every second sample: `low` becomes the low half, the squares of the
+    /// high half are returned. Output `m` stands at the time of input `2m`.
+    fn decimate(&self, low: &mut Vec<f32>, odd: &mut Vec<f32>) -> Vec<f32> {
         let half = low.len() / 2;
-        // Odd samples with TAP_PAIRS of silence on both sides.
-        let mut odd = vec![0.0; half + 2 * TAP_PAIRS];
-        for (o, pair) in odd[TAP_PAIRS..].iter_mut().zip(low.as_chunks::<2>().0) {
-            *o = pair[1];
-        }
-        let mut high = Vec::with_capacity(half);
-        for m in 0..half {
-            let side = self.side(&odd[m..m + 2 * TAP_PAIRS]);
-            let centre = 0.5 * low[2 * m];
-            low[m] = centre + side;
-            high.push(centre - side);
-        }
-        low.truncate(half);
-        high
-    }
-
-    /// `Σ h_k (x[-(2k+1)] + x[2k+1])` over the odd samples around the centre, which lies between the two middle ones.
-    fn side(&self, odd: &[f32]) -> f32 {
-        let (before, after) = odd.split_at(TAP_PAIRS);
-        let pairs = before.iter().rev().zip(after);
-        self.taps
-            .iter()
-            .zip(pairs)
-            .map(|(h, (b, a))| h * (b + a))
-            .sum()
-    }
-
-    /// Splits at a quarter of `rate / dilation` without decimation.
-    fn divide(&self, low: &mut Vec<f32>, dilation: usize) -> Vec<f32> {
-        let n = low.len();
-        let mut smooth: Vec<f32> = low.iter().map(|x| 0.5 * x).collect();
-        for (k, h) in self.taps.iter().enumerate() {
-            let shift = (2 * k + 1) * dilation;
-            if shift < n {
-                for (y, x) in smooth[shift..].iter_mut().zip(&*low) {
-                    *y += h * x;
-                }
-                for (y, x) in smooth.iter_mut().zip(&low[shift..]) {
-                    *y += h * x;
-                }
+        // Odd samples with TAP_PAIRS of silence before them, and enough after them for whole blocks.
+        odd.clear();
+        odd.resize(TAP_PAIRS, 0.0);
+        odd.extend(low.as_chunks::<2>().0.iter().map(|pair| pair[1]));
+        odd.resize(half + 2 * TAP_PAIRS + BLOCK, 0.0);
+        let mut squares = vec![0.0; half];
+        for (block, squares) in squares.chunks_mut(BLOCK).enumerate() {
+            let start = BLOCK * block;
+            let side = self.sides(|k| (start + TAP_PAIRS - 1 - k, start + TAP_PAIRS + k), odd);
+            for (i, (square, side)) in squares.iter_mut().zip(side).enumerate() {
+                let centre = 0.5 * low[2 * (start + i)];
+                low[start + i] = centre + side;
+                *square = (centre - side) * (centre - side);
             }
         }
-        let high = low.iter().zip(&smooth).map(|(x, y)| x - y).collect();
-        *low = smooth;
-        high
+        low.truncate(half);
+        squares
+    }
+
+    /// Splits at a quarter of `rate / dilation` without decimation: `low` becomes the low half, the squares of the high
+    /// half are returned.
+    fn divide(&self, low: &mut [f32], dilation: usize, padded: &mut Vec<f32>) -> Vec<f32> {
+        // The reach of the filter in silence on both sides.
+        let reach = (2 * TAP_PAIRS - 1) * dilation;
+        padded.clear();
+        padded.resize(reach, 0.0);
+        padded.extend_from_slice(low);
+        padded.resize(low.len() + 2 * reach + BLOCK, 0.0);
+        let mut squares = vec![0.0; low.len()];
+        let blocks = low.chunks_mut(BLOCK).zip(squares.chunks_mut(BLOCK));
+        for (block, (low, squares)) in blocks.enumerate() {
+            let centre = BLOCK * block + reach;
+            let shift = |k: usize| (2 * k + 1) * dilation;
+            let side = self.sides(|k| (centre - shift(k), centre + shift(k)), padded);
+            for ((low, square), side) in low.iter_mut().zip(squares).zip(side) {
+                let centre = 0.5 * *low;
+                *low = centre + side;
+                *square = (centre - side) * (centre - side);
+            }
+        }
+        squares
+    }
+
+    /// `Σ h_k (x[before_k + i] + x[after_k + i])` for a block of i; `at` gives `before_k` and `after_k`.
+    ///
+    /// Block by block, so that sums of neighbours run side by side in the machine's vectors.
+    fn sides(&self, at: impl Fn(usize) -> (usize, usize), x: &[f32]) -> [f32; BLOCK] {
+        let mut sums = [0.0; BLOCK];
+        for (k, h) in self.taps.iter().enumerate() {
+            let (before, after) = at(k);
+            let pairs = x[before..before + BLOCK]
+                .iter()
+                .zip(&x[after..after + BLOCK]);
+            for (sum, (b, a)) in sums.iter_mut().zip(pairs) {
+                *sum += h * (b + a);
+            }
+        }
+        sums
     }
 }
+
+/// Outputs that are computed at once.
+const BLOCK: usize = 16;
 
 /// `h_k = sin(π(2k+1)/2) / (π(2k+1))`, the ideal half-band filter, under a Blackman window, scaled to pass 0 Hz whole.
 fn half_band_taps() -> [f32; TAP_PAIRS] {
@@ -166,13 +182,20 @@ fn half_band_taps() -> [f32; TAP_PAIRS] {
     std::array::from_fn(|k| (0.25 * ideal(k) / sum) as f32)
 }
 
-fn mean_squares(samples: &[f32], per_hop: usize) -> Vec<f32> {
-    #[expect(clippy::cast_precision_loss, reason = "a hop is a few dozen samples")]
-    let scale = 1.0 / per_hop as f32;
-    samples
-        .chunks_exact(per_hop)
-        .map(|hop| scale * hop.iter().map(|x| x * x).sum::<f32>())
-        .collect()
+/// Replaces every `count` values by their mean.
+fn average(values: &mut Vec<f32>, count: usize) {
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "a hop is a few dozen samples"
+    )]
+    let scale = 1.0 / real(count) as f32;
+    if count > 1 {
+        let means = values.len() / count;
+        for m in 0..means {
+            values[m] = scale * values[m * count..(m + 1) * count].iter().sum::<f32>();
+        }
+        values.truncate(means);
+    }
 }
 
 #[cfg(test)]

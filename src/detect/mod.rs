@@ -5,6 +5,7 @@
 //! chosen impacts below one sample.
 
 pub mod filterbank;
+mod logarithm;
 pub mod matched;
 pub mod peaks;
 pub mod quiet;

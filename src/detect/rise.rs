@@ -1,6 +1,7 @@
 //! How surely the energy went up at each moment.
 
 use super::filterbank::{Band, Filterbank};
+use super::logarithm::ln_from_one;
 use crate::units::real;
 
 /// Shortest window after the moment, in seconds: the ring of one impact lasts longer.
@@ -149,19 +150,9 @@ impl Rise {
                 per_hop * FALLING_SHARE * real(after),
                 per_hop * real(before),
             );
-            let later = falling_means(&band.energies, after);
-            let earlier = means_before(&band.energies, before);
-            // The recording's first instants have no past: nothing can be said to have risen.
-            let past = |k: usize| {
-                if k < before {
-                    f32::INFINITY
-                } else {
-                    earlier[k]
-                }
-            };
-            (0..later.len())
-                .map(|k| ratio.of((later[k] + floor) / (past(k) + floor)))
-                .collect()
+            let mut ratios = rises(&band.energies, after, before, floor);
+            ratio.apply(&mut ratios);
+            ratios
         } else {
             vec![0.0; band.energies.len()]
         };
@@ -182,16 +173,20 @@ impl Rise {
         }
         let energies = &self.band.energies[from..to];
         let loudest = energies.iter().copied().fold(0.0, f32::max);
-        let floor = f64::from(self.floor.max(LEAKAGE * loudest));
+        // In units of the floor every level is at least 1; what the unit adds is the same for all k.
+        let unit = 1.0 / f64::from(self.floor.max(LEAKAGE * loudest));
         let total: f64 = energies.iter().copied().map(f64::from).sum();
         let count = real(energies.len());
-        let mut before = 0.0;
-        for (k, &energy) in energies.iter().enumerate() {
-            if k > 0 {
-                let (n1, n2) = (real(k), count - real(k));
-                let (e1, e2) = (before / n1 + floor, (total - before).max(0.0) / n2 + floor);
-                likelihood[k] -= weight * (n1 * e1.ln() + n2 * e2.ln());
+        let (mut n1, mut before) = (0.0, 0.0);
+        for (value, &energy) in likelihood.iter_mut().zip(energies) {
+            if n1 > 0.0 {
+                let n2 = count - n1;
+                let e1 = narrow(before * unit / n1 + 1.0);
+                let e2 = narrow((total - before).max(0.0) * unit / n2 + 1.0);
+                *value -=
+                    weight * (n1 * f64::from(ln_from_one(e1)) + n2 * f64::from(ln_from_one(e2)));
             }
+            n1 += 1.0;
             before += f64::from(energy);
         }
     }
@@ -200,32 +195,41 @@ impl Rise {
 /// Values of equal weight that a window with linearly falling weights is worth: (Σw)²/Σw² = ¾ of its length.
 const FALLING_SHARE: f64 = 0.75;
 
-/// Mean of the `window` values from each one on, with weights that fall linearly to nothing.
+/// `(A + floor)/(B + floor)` at each hop: A is the mean of the `after` energies from it on, with weights that fall
+/// linearly to nothing, B the mean of the `before` energies before it.
 ///
-/// What is nearest counts most, so the mean is greatest where a sound begins and not anywhere before it.
-fn falling_means(energies: &[f32], window: usize) -> Vec<f32> {
-    let scale = 2.0 / (real(window) * real(window + 1));
-    let (mut flat, mut falling) = (0.0, 0.0);
-    let mut means = vec![0.0; energies.len()];
-    for k in (0..energies.len()).rev() {
-        let energy = f64::from(energies[k]);
-        // One step earlier every weight but the newest falls by one.
-        falling += real(window) * energy - flat;
-        flat += energy - energies.get(k + window).copied().map_or(0.0, f64::from);
-        means[k] = narrow((scale * falling).max(0.0));
+/// What is nearest counts most in A, so it is greatest where a sound begins and not anywhere before it. The recording's
+/// first instants have no past: nothing can be said to have risen, and the ratio is 0.
+fn rises(energies: &[f32], after: usize, before: usize, floor: f32) -> Vec<f32> {
+    let mut ratios = falling_means(energies, after);
+    let hops = ratios.len();
+    ratios[..before.min(hops)].fill(0.0);
+    let mean = 1.0 / real(before);
+    let mut sum: f64 = energies.iter().take(before).copied().map(f64::from).sum();
+    let windows = energies.iter().zip(energies.iter().skip(before));
+    for (ratio, (&oldest, &newest)) in ratios.iter_mut().skip(before).zip(windows) {
+        let past = narrow((sum * mean).max(0.0));
+        *ratio = (*ratio + floor) / (past + floor);
+        sum += f64::from(newest) - f64::from(oldest);
     }
-    means
+    ratios
 }
 
-/// Mean of the `window` values before each one.
-fn means_before(energies: &[f32], window: usize) -> Vec<f32> {
-    let mut sum = 0.0;
+/// Mean of the `window` values from each one on, with weights that fall linearly to nothing.
+fn falling_means(energies: &[f32], window: usize) -> Vec<f32> {
+    let length = real(window);
+    let scale = 2.0 / (length * real(window + 1));
+    let (mut flat, mut falling) = (0.0, 0.0);
     let mut means = vec![0.0; energies.len()];
-    for k in 0..energies.len() {
-        means[k] = narrow((sum / real(window)).max(0.0));
-        sum += f64::from(energies[k])
-            - k.checked_sub(window)
-                .map_or(0.0, |old| f64::from(energies[old]));
+    // What leaves the window as it moves one step earlier: nothing while it reaches past the end.
+    let past_end = std::iter::repeat_n(&0.0, window.min(energies.len()));
+    let leaving = past_end.chain(energies.iter().rev());
+    for ((mean, &energy), &left) in means.iter_mut().zip(energies).rev().zip(leaving) {
+        let energy = f64::from(energy);
+        // One step earlier every weight but the newest falls by one.
+        falling += length * energy - flat;
+        flat += energy - f64::from(left);
+        *mean = narrow((scale * falling).max(0.0));
     }
     means
 }
@@ -247,12 +251,14 @@ impl LogRatio {
         }
     }
 
-    fn of(self, ratio: f32) -> f32 {
-        if ratio <= 1.0 {
-            return 0.0;
+    /// Puts the evidence in the place of the ratios.
+    fn apply(self, ratios: &mut [f32]) {
+        for ratio in ratios {
+            let rise = ratio.max(1.0);
+            let pooled = 1.0 + self.share_after * (rise - 1.0);
+            let nats = self.half_values * ln_from_one(pooled) - self.half_after * ln_from_one(rise);
+            *ratio = nats.max(0.0);
         }
-        let pooled = 1.0 + self.share_after * (ratio - 1.0);
-        (self.half_values * pooled.ln() - self.half_after * ratio.ln()).max(0.0)
     }
 }
 
@@ -287,9 +293,10 @@ mod tests {
         let mut rng = crate::random::SplitMix64::new(4);
         let energies: Vec<f32> = (0..200).map(|_| narrow(rng.uniform())).collect();
         for window in [2, 3, 17, 199, 300] {
-            let (falling, before) = (
+            let floor = 0.1;
+            let (falling, ratios) = (
                 falling_means(&energies, window),
-                means_before(&energies, window),
+                rises(&energies, window, window, floor),
             );
             for k in 0..200 {
                 let weights: f64 = (1..=window).map(real).sum();
@@ -303,9 +310,15 @@ mod tests {
                     "window {window}, hop {k}"
                 );
                 let behind = &energies[k.saturating_sub(window)..k];
-                let slow = behind.iter().copied().map(f64::from).sum::<f64>() / real(window);
+                let past = behind.iter().copied().map(f64::from).sum::<f64>() / real(window);
+                let floor = f64::from(floor);
+                let ratio = if k < window {
+                    0.0
+                } else {
+                    (slow + floor) / (past + floor)
+                };
                 assert!(
-                    (f64::from(before[k]) - slow).abs() < 1e-6,
+                    (f64::from(ratios[k]) - ratio).abs() < 1e-6,
                     "window {window}, hop {k}"
                 );
             }
