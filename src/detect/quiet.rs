@@ -19,8 +19,8 @@ const LOW_FRAMES: usize = 10;
 /// Levels below this mean square are digital silence.
 const SILENCE: f32 = 1e-14;
 
-/// Listens for frames that rise out of those before them: in the sound itself, in its treble (the difference of
-/// neighbouring samples), or in its bass (the mean of sixteen).
+/// Listens for frames that rise out of those before them: in the sound itself, in its treble (the differences of
+/// neighbours), or in its bass (the means of sixteen).
 ///
 /// Before the first sample there is silence, so the first sound of a recording always rises.
 #[derive(Debug, Clone)]
@@ -55,27 +55,41 @@ impl Watch {
         self.unit
     }
 
-    /// Whether anything rises in the next unit; the last one of a recording may be shorter.
-    pub fn rises(&mut self, unit: &[f32]) -> bool {
-        for frames in unit.chunks(self.frame * LOW_FRAMES) {
-            let mut low = 0.0;
-            for frame in frames.chunks_exact(self.frame) {
-                self.all.energies.push(energy(frame));
-                self.high.energies.push(treble(frame));
-                low += bass(frame);
-            }
-            self.low
-                .energies
-                .push(low / narrow((frames.len() / LOW).max(1)));
+    /// Whether anything rises in the next unit, which is what `samples` holds from an index on; the last unit of a
+    /// recording may be shorter.
+    pub fn rises(&mut self, samples: &[f32], from: usize) -> bool {
+        let unit = &samples[from..];
+        match from.checked_sub(1) {
+            Some(before) => self.measure(unit, &samples[before..]),
+            // Of the very first sample there is none before.
+            None => self.measure(unit, &[&unit[..unit.len().min(1)], unit].concat()),
         }
         let scale = 1.0 / narrow(self.frame);
+        // The sums of sixteen, not their means, and for each group of sixteen one.
+        let bass_scale = 1.0 / narrow(self.frame * LOW_FRAMES * LOW);
         // All three have to be told what was heard, whatever the others say.
         let rises = [
             self.all.rises(scale),
             self.high.rises(scale),
-            self.low.rises(1.0),
+            self.low.rises(bass_scale),
         ];
         rises.contains(&true)
+    }
+
+    /// Adds the energies of all whole frames; `earlier` begins one sample before `unit`.
+    fn measure(&mut self, unit: &[f32], earlier: &[f32]) {
+        let length = self.frame * LOW_FRAMES;
+        for (unit, earlier) in unit.chunks(length).zip(earlier.chunks(length)) {
+            let frames = unit.chunks_exact(self.frame);
+            let mut bass = 0.0;
+            for (frame, earlier) in frames.zip(earlier.chunks_exact(self.frame)) {
+                let sums = Sums::over(frame, earlier);
+                self.all.energies.push(sums.all);
+                self.high.energies.push(sums.high);
+                bass += sums.bass;
+            }
+            self.low.energies.push(bass);
+        }
     }
 }
 
@@ -114,41 +128,48 @@ impl Past {
 }
 
 /// Lanes that are summed side by side, so that the compiler can use the machine's vectors.
-const LANES: usize = 8;
+const LANES: usize = 4;
 
-/// Σ x².
-fn energy(frame: &[f32]) -> f32 {
-    sum_of_squares(frame.as_chunks::<LANES>().0.iter().copied())
+/// The energies of one frame, in one go over its samples.
+#[derive(Debug, Clone, Copy)]
+struct Sums {
+    /// Σ x².
+    all: f32,
+    /// Σ (x − the sample before)².
+    high: f32,
+    /// Σ (sum of sixteen)².
+    bass: f32,
 }
 
-/// Σ (x\[i+1\] − x\[i\])².
-fn treble(frame: &[f32]) -> f32 {
-    let pairs = frame[1..]
-        .as_chunks::<LANES>()
-        .0
-        .iter()
-        .zip(frame.as_chunks::<LANES>().0);
-    sum_of_squares(pairs.map(|(a, b)| std::array::from_fn(|i| a[i] - b[i])))
-}
-
-/// Σ m², m being the means of sixteen samples.
-fn bass(frame: &[f32]) -> f32 {
-    let means = frame.as_chunks::<LOW>().0.iter().map(|c| {
-        let halves: [f32; 8] = std::array::from_fn(|i| c[i] + c[i + 8]);
-        let quarters: [f32; 4] = std::array::from_fn(|i| halves[i] + halves[i + 4]);
-        (quarters[0] + quarters[2]) + (quarters[1] + quarters[3])
-    });
-    means.map(|m| m * m).sum::<f32>() / narrow(LOW * LOW)
-}
-
-fn sum_of_squares(chunks: impl Iterator<Item = [f32; LANES]>) -> f32 {
-    let mut sums = [0.0; LANES];
-    for chunk in chunks {
-        for (sum, x) in sums.iter_mut().zip(chunk) {
-            *sum += x * x;
+impl Sums {
+    /// Sums over a frame; `earlier` begins one sample before it.
+    fn over(frame: &[f32], earlier: &[f32]) -> Self {
+        let (mut all, mut high, mut bass) = ([0.0; LANES], [0.0; LANES], 0.0);
+        let groups = frame.as_chunks::<LOW>().0.iter();
+        for (group, earlier) in groups.zip(earlier.as_chunks::<LOW>().0) {
+            let mut sixteen = [0.0; LANES];
+            let quads = group.as_chunks::<LANES>().0.iter();
+            for (x, before) in quads.zip(earlier.as_chunks::<LANES>().0) {
+                for i in 0..LANES {
+                    let step = x[i] - before[i];
+                    all[i] += x[i] * x[i];
+                    high[i] += step * step;
+                    sixteen[i] += x[i];
+                }
+            }
+            bass += total(sixteen) * total(sixteen);
+        }
+        Self {
+            all: total(all),
+            high: total(high),
+            bass,
         }
     }
-    sums.iter().sum()
+}
+
+/// The sum of the lanes, by halves.
+fn total(lanes: [f32; LANES]) -> f32 {
+    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3])
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "counts of a few samples")]
@@ -177,9 +198,9 @@ mod tests {
     fn restless_s(samples: &[f32]) -> Vec<f64> {
         let mut watch = Watch::new(RATE_HZ);
         let unit = watch.unit();
-        let units = samples.chunks(unit).enumerate();
-        let restless = units.filter(|(_, u)| watch.rises(u));
-        restless.map(|(i, _)| real(i * unit) / RATE_HZ).collect()
+        let starts = (0..samples.len()).step_by(unit);
+        let restless = starts.filter(|&i| watch.rises(&samples[..samples.len().min(i + unit)], i));
+        restless.map(|i| real(i) / RATE_HZ).collect()
     }
 
     #[test]

@@ -161,7 +161,7 @@ impl Listener {
         let mut rises = false;
         for (watch, held) in self.watches.iter_mut().zip(&self.held) {
             // Every watch has to hear everything.
-            rises |= watch.rises(&held[begin..]);
+            rises |= watch.rises(held, begin);
         }
         if rises {
             let before = samples_in(BEFORE_S, self.sample_rate_hz);
