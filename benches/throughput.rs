@@ -1,23 +1,27 @@
-//! Ten minutes of recording, mostly silence and all bouncing: time of the analysis against the limit, which is reading
-//! the file in blocks and summing squares. `cargo bench --bench throughput`
+//! Speed and memory: ten minutes of mostly silence and of all bouncing against the limit, which is reading the file in
+//! blocks and summing squares; from a minute to ten hours through a pipe; and from process start to JSON.
+//! `cargo bench --bench throughput`
 #![expect(clippy::print_stdout, reason = "a benchmark prints")]
 #![allow(clippy::unwrap_used, reason = "a failing benchmark should panic")]
 
-use std::fs::File;
-use std::io::Read;
+use std::fs::{self, File};
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
-use bounce_audio::analysis::{Settings, analyze_clearest};
+use bounce_audio::analysis::{Listener, Settings};
 use bounce_audio::synth::{render, scene};
-use bounce_audio::wav;
+use bounce_audio::wav::Stream;
 
 const DURATION_S: usize = 600;
 const RATE_HZ: usize = 44_100;
 const REPEATS: usize = 9;
+/// Processes started for the time from start to JSON.
+const STARTS: usize = 20;
 
-/// A recording in which a drop of four seconds begins every `period_s`.
-fn recording(name: &str, period_s: usize) -> PathBuf {
+/// Hiss, in which a drop of four seconds begins every `period_s`.
+fn recording(name: &str, duration_s: usize, period_s: usize) -> PathBuf {
     let made = render(&scene::preset("steel").unwrap(), 1).unwrap().samples;
     let mut quiet = scene::preset("noise").unwrap();
     quiet.noise.white_db = -70.0;
@@ -30,7 +34,7 @@ fn recording(name: &str, period_s: usize) -> PathBuf {
         sample_format: hound::SampleFormat::Int,
     };
     let mut writer = hound::WavWriter::create(&path, spec).unwrap();
-    for i in 0..DURATION_S * RATE_HZ {
+    for i in 0..duration_s * RATE_HZ {
         let drop = made.get(i % (period_s * RATE_HZ)).copied().unwrap_or(0.0);
         let sample = 0.9 * drop + hiss[i % hiss.len()];
         #[expect(clippy::cast_possible_truncation, reason = "samples of 16 bits")]
@@ -61,19 +65,20 @@ fn sum_of_squares(path: &Path) -> f64 {
     }
 }
 
+/// Drops found in a file, as the command goes about it.
 fn analysis(path: &Path) -> usize {
-    let recording = wav::read_file(path).unwrap();
-    let rate = f64::from(recording.sample_rate_hz);
-    analyze_clearest(&recording.channels, rate, &Settings::default())
-        .unwrap()
-        .1
-        .drops
-        .len()
+    let mut stream = Stream::open_file(path).unwrap();
+    let rate = f64::from(stream.container().sample_rate_hz);
+    let mut listener = Listener::new(1, rate, &Settings::default()).unwrap();
+    while let Some(block) = stream.next_block().unwrap() {
+        listener.push(block).unwrap();
+    }
+    listener.finish().unwrap().1.drops.len()
 }
 
-fn median_s(mut run: impl FnMut()) -> f64 {
+fn median_s(repeats: usize, mut run: impl FnMut()) -> f64 {
     run();
-    let mut times: Vec<f64> = (0..REPEATS)
+    let mut times: Vec<f64> = (0..repeats)
         .map(|_| {
             let start = Instant::now();
             run();
@@ -81,24 +86,83 @@ fn median_s(mut run: impl FnMut()) -> f64 {
         })
         .collect();
     times.sort_by(f64::total_cmp);
-    times[REPEATS / 2]
+    times[repeats / 2]
+}
+
+fn command(file: &str, input: Stdio) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_bounce-audio"));
+    command.args(["analyze", file, "--format", "json"]);
+    command.stdin(input).stdout(Stdio::null()).spawn().unwrap()
+}
+
+/// Greatest memory that a process has held so far, in MiB; none where the system does not say.
+fn peak_mib(process: &Child) -> Option<f64> {
+    let status = fs::read_to_string(format!("/proc/{}/status", process.id())).ok()?;
+    let line = status.lines().find(|l| l.starts_with("VmHWM"))?;
+    let kib: f64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kib / 1024.0)
+}
+
+/// Time and memory of the command on a pipe that gives a recording's samples again and again.
+fn through_a_pipe(wav: &[u8], minutes: usize) -> (f64, Option<f64>) {
+    let (header, samples) = wav.split_at(44);
+    let start = Instant::now();
+    let mut process = command("-", Stdio::piped());
+    let mut pipe = process.stdin.take().unwrap();
+    // A streamed header gives no length.
+    pipe.write_all(&header[..40]).unwrap();
+    pipe.write_all(&[0xFF; 4]).unwrap();
+    let minute = 2 * 60 * RATE_HZ;
+    for i in 0..minutes {
+        let from = minute * (i % (samples.len() / minute));
+        pipe.write_all(&samples[from..from + minute]).unwrap();
+    }
+    let memory = peak_mib(&process);
+    drop(pipe);
+    process.wait().unwrap();
+    (start.elapsed().as_secs_f64(), memory)
 }
 
 fn main() {
     println!("recording      analysis      limit   ratio  audio s per s  drops");
-    for (name, period_s) in [("mostly-silent.wav", 60), ("dense.wav", 4)] {
-        let path = recording(name, period_s);
-        let limit_s = median_s(|| assert!(sum_of_squares(&path) > 0.0));
+    let recordings = [
+        ("one-drop.wav", DURATION_S),
+        ("mostly-silent.wav", 60),
+        ("dense.wav", 4),
+    ];
+    let mut paths = Vec::new();
+    for (name, period_s) in recordings {
+        let path = recording(name, DURATION_S, period_s);
+        let limit_s = median_s(REPEATS, || assert!(sum_of_squares(&path) > 0.0));
         let mut drops = 0;
-        let own_s = median_s(|| drops = analysis(&path));
+        let own_s = median_s(REPEATS, || drops = analysis(&path));
         #[expect(clippy::cast_precision_loss, reason = "600 s")]
         let speed = DURATION_S as f64 / own_s;
         println!(
-            "{:<13} {:>7.0} ms {:>7.1} ms  {:.4} {speed:>14.0} {drops:>6}",
+            "{:<13} {:>7.1} ms {:>7.1} ms  {:.4} {speed:>14.0} {drops:>6}",
             name.trim_end_matches(".wav"),
             1e3 * own_s,
             1e3 * limit_s,
             limit_s / own_s
         );
+        paths.push(path);
     }
+    println!("\nmostly silent, through a pipe\n  minutes   seconds  seconds a minute   peak MiB");
+    let wav = fs::read(&paths[1]).unwrap();
+    for minutes in [1, 10, 60, 600] {
+        let (seconds, memory) = through_a_pipe(&wav, minutes);
+        #[expect(clippy::cast_precision_loss, reason = "600 minutes")]
+        let each = seconds / minutes as f64;
+        let memory = memory.map_or("-".to_owned(), |mib| format!("{mib:.1}"));
+        println!("{minutes:>9} {seconds:>9.2} {each:>17.4} {memory:>10}");
+    }
+    let short = recording("five-seconds.wav", 5, 5).display().to_string();
+    let start_s = median_s(STARTS, || {
+        let status = command(&short, Stdio::null()).wait().unwrap();
+        assert!(status.success());
+    });
+    println!(
+        "\n5 s of recording, from process start to JSON: {:.1} ms",
+        1e3 * start_s
+    );
 }

@@ -68,6 +68,7 @@ fn json_has_the_fields_of_the_contract() {
     assert_eq!(document["settings"]["height_m"], 0.15);
     let drop = &document["drops"][0];
     for field in [
+        "channel",
         "impacts",
         "bounces",
         "observed_time_s",
@@ -173,8 +174,11 @@ fn a_pipe_gives_what_the_file_gives() {
         .unwrap()
         .write_all(&fs::read(&file).unwrap())
         .unwrap();
-    let piped: Value = serde_json::from_slice(&child.wait_with_output().unwrap().stdout).unwrap();
-    assert_eq!(piped["drops"], json(&["analyze", &file])["drops"]);
+    let mut piped: Value =
+        serde_json::from_slice(&child.wait_with_output().unwrap().stdout).unwrap();
+    piped["file"] = Value::from(file.as_str());
+    assert_eq!(piped["drops"].as_array().unwrap().len(), 1);
+    assert_eq!(piped, json(&["analyze", &file]));
 }
 
 /// Two channels in one file: the first holds hiss, the second the drop.
@@ -214,6 +218,9 @@ fn the_clearest_channel_or_the_users_is_listened_to() {
         ),
         (&Value::from(2), 1)
     );
+    assert_eq!(best["drops"][0]["channel"], 2);
+    let second = json(&["analyze", &file, "--channel", "2"]);
+    assert_eq!(second, best);
     let first = run(&["analyze", &file, "--channel", "1"]);
     assert_eq!(first.status.code(), Some(1));
     let third = run(&["analyze", &file, "--channel", "3"]);
