@@ -203,3 +203,10 @@ fn level_db(stretch: &Stretch<'_>, time_s: f64) -> Option<f64> {
     let peak = sound.iter().map(|x| x.abs()).fold(0.0, f32::max);
     (peak > 0.0).then(|| 20.0 * f64::from(peak).log10())
 }
+
+#[cfg(test)]
+impl From<Drop> for Measured {
+    fn from(drop: Drop) -> Self {
+        Self { drop, left_s: None }
+    }
+}
