@@ -63,6 +63,12 @@ impl Filterbank {
         self.hop
     }
 
+    /// Samples per second of what it splits.
+    #[must_use]
+    pub const fn sample_rate_hz(&self) -> f64 {
+        self.sample_rate_hz
+    }
+
     /// Seconds per hop.
     #[must_use]
     pub fn hop_s(&self) -> f64 {

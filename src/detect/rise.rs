@@ -55,10 +55,14 @@ impl Evidence {
     #[must_use]
     pub fn of(bank: &Filterbank, samples: &[f32]) -> Self {
         let mut total = vec![0.0; samples.len().div_ceil(bank.hop())];
+        let rounding = rounding_density(samples, bank);
         let bands: Vec<Rise> = bank
             .split(samples)
             .into_iter()
-            .map(|band| Rise::of(band, bank.hop_s()))
+            .map(|band| {
+                let rounding = rounding * band.width_hz;
+                Rise::of(band, bank.hop_s(), narrow(rounding))
+            })
             .collect();
         for band in &bands {
             for (t, g) in total.iter_mut().zip(&band.own) {
@@ -132,7 +136,7 @@ const SPEAKING: f32 = 0.25;
 const LEAKAGE: f32 = 1e-3;
 
 impl Rise {
-    fn of(band: Band, hop_s: f64) -> Self {
+    fn of(band: Band, hop_s: f64, rounding: f32) -> Self {
         let window = |shortest_s: f64, values: f64| {
             crate::units::samples_in(shortest_s.max(values / (2.0 * band.width_hz)), 1.0 / hop_s)
                 .max(2)
@@ -142,8 +146,9 @@ impl Rise {
             window(BEFORE_S, VALUES_BEFORE),
         );
         let greatest = band.energies.iter().copied().fold(0.0, f32::max);
-        let floor =
-            (FLOOR_SHARE * quantile(&band.energies, FLOOR_QUANTILE)).max(FLOOR_RANGE * greatest);
+        let floor = (FLOOR_SHARE * quantile(&band.energies, FLOOR_QUANTILE))
+            .max(FLOOR_RANGE * greatest)
+            .max(rounding);
         let own = if floor > 0.0 {
             let per_hop = 2.0 * band.width_hz * hop_s;
             let ratio = LogRatio::new(
@@ -189,6 +194,24 @@ impl Rise {
             n1 += 1.0;
             before += f64::from(energy);
         }
+    }
+}
+
+/// Energy per Hz of the noise that rounding makes.
+///
+/// # Formula
+/// `q²/12` over half the rate, q being the recording's step: the smallest difference of neighbouring samples. Between
+/// the sounds of a coarse recording a few samples toggle by one step and the rest are equal, so no quantile of its
+/// energy knows this.
+fn rounding_density(samples: &[f32], bank: &Filterbank) -> f64 {
+    let differences = samples.windows(2).map(|w| (w[1] - w[0]).abs());
+    let step = differences
+        .filter(|&d| d > 0.0)
+        .fold(f32::INFINITY, f32::min);
+    if step.is_finite() {
+        f64::from(step).powi(2) / 12.0 / (0.5 * bank.sample_rate_hz())
+    } else {
+        0.0
     }
 }
 
