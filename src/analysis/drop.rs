@@ -1,12 +1,12 @@
 //! One drop: its impacts timed and measured, its restitution fitted.
 
-use super::{Settings, Stretch, rejected, warnings};
+use super::{Settings, Stretch, model, rejected, warnings};
 use crate::Error;
 use crate::detect::refine::refine;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
-use crate::report::{Drop, Estimates, Impact, Model, Restitution, Scatter, Status};
+use crate::report::{Drop, Estimates, Impact, Scatter, Status};
 use crate::sequence::{Chain, Link};
 
 /// A drop, as far as it can be known before the recording ends.
@@ -64,24 +64,23 @@ pub(super) fn measure(
         warnings.extend(warnings::of_total_time(&solved));
         total = solved.ok();
     }
+    let modelled = model::fitted(&timed, settings)?;
+    warnings.extend(modelled.warnings);
     let drop = Drop {
         channel: channel + 1,
         bounces: chain.heard(),
         observed_time_s: timed.last().map_or(0.0, |i| i.time_s)
             - timed.first().map_or(0.0, |i| i.time_s),
         total_time_s: total.map(|t| t.total_time_s),
-        restitution: ratio.map(|estimate| Restitution {
-            estimate,
-            at_speed_m_per_s: flights.mean_speed_m_per_s(settings.gravity_m_per_s2),
-            method: "flight_ratio",
-        }),
+        restitution: modelled.restitution,
         estimates: estimates(ratio, total, first_rebound),
         scatter: Scatter {
             timing_std_s: median_std(&timed),
-            bounce_std: flights.scatter(),
+            bounce_std: modelled.bounce_std,
         },
-        model: constant_model(ratio),
-        ball: None,
+        model: modelled.model,
+        ball: modelled.ball,
+        budget: modelled.budget,
         evidence_nats: chain.evidence,
         rejected: chain.rejected.iter().map(rejected).collect(),
         warnings,
@@ -138,16 +137,6 @@ fn estimates(
         eq25: total.and_then(|t| t.eq25),
         eq30: total.and_then(|t| t.eq30),
         first_rebound,
-    }
-}
-
-fn constant_model(ratio: Option<Estimate>) -> Model {
-    let mut parameters = serde_json::Map::new();
-    parameters.insert("restitution".to_owned(), ratio.map(|e| e.value).into());
-    Model {
-        selected: "constant",
-        parameters,
-        candidates: vec!["constant".to_owned()],
     }
 }
 

@@ -5,6 +5,7 @@
 mod drop;
 mod findings;
 mod listener;
+mod model;
 mod scene;
 mod tail;
 mod warnings;
@@ -14,6 +15,7 @@ pub use listener::Listener;
 use crate::Error;
 use crate::detect::refine::Timing;
 use crate::detect::{self, Candidate};
+use crate::fit::ladder;
 use crate::report::{Analysis, Rejected};
 use crate::sequence::{self, Event, Reason};
 use crate::units::{real, samples_in};
@@ -28,6 +30,14 @@ pub struct Settings {
     pub height_std_m: f64,
     /// Gravity in m/s². Default 9.81.
     pub gravity_m_per_s2: f64,
+    /// Mass of the ball in kg, if known: with the diameter it gives the drag of the air, with a contact time k and c.
+    pub mass_kg: Option<f64>,
+    /// Diameter of the ball in metres, if known.
+    pub diameter_m: Option<f64>,
+    /// Time in contact at each impact in seconds, if known, taken to be right within 5 %.
+    pub contact_time_s: Option<f64>,
+    /// The model of the intervals. Default: as far up the ladder as the recording supports.
+    pub model: ladder::Choice,
     /// Listen from here, in seconds. Default: the start.
     pub start_s: Option<f64>,
     /// Listen up to here, in seconds. Default: the end.
@@ -46,6 +56,10 @@ impl Default for Settings {
             height_m: None,
             height_std_m: 1e-3,
             gravity_m_per_s2: 9.81,
+            mass_kg: None,
+            diameter_m: None,
+            contact_time_s: None,
+            model: ladder::Choice::Auto,
             start_s: None,
             end_s: None,
             timing: Timing::default(),
@@ -65,7 +79,14 @@ impl Settings {
             }
         };
         positive("gravity", self.gravity_m_per_s2)?;
-        self.height_m.map_or(Ok(()), |h| positive("height", h))?;
+        for (name, value) in [
+            ("height", self.height_m),
+            ("mass", self.mass_kg),
+            ("diameter", self.diameter_m),
+            ("contact time", self.contact_time_s),
+        ] {
+            value.map_or(Ok(()), |v| positive(name, v))?;
+        }
         if !(self.height_std_m.is_finite() && self.height_std_m >= 0.0) {
             return Err(Error::argument(
                 "height error",

@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
-use super::{Outcome, acceleration, length, time};
+use super::{Outcome, acceleration, length, mass, time};
 use crate::Error;
 use crate::analysis::{Listener, Settings};
 use crate::detect::refine::Timing;
+use crate::fit::ladder::Choice;
 use crate::report::{self, RecordingInfo, Report, SettingsInfo, csv, json, text};
 use crate::wav::Stream;
 
@@ -31,6 +32,18 @@ pub(super) struct Arguments {
     /// Standard error of the height
     #[arg(long, value_parser = length, default_value = "1mm", allow_negative_numbers = true)]
     height_error: f64,
+    /// Mass of the ball: 2.5g, 0.6kg; with --diameter the drag of the air is known, with a contact time k and c
+    #[arg(long, value_parser = mass, allow_negative_numbers = true)]
+    mass: Option<f64>,
+    /// Diameter of the ball: 38mm
+    #[arg(long, value_parser = length, allow_negative_numbers = true)]
+    diameter: Option<f64>,
+    /// Time in contact at each impact, if known: 1ms
+    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    contact_time: Option<f64>,
+    /// Model of the intervals: constant e, and what is added to it
+    #[arg(long, value_enum, default_value_t = ModelChoice::Auto)]
+    model: ModelChoice,
     /// Gravity in m/s²
     #[arg(long, value_parser = acceleration, default_value = "9.81", allow_negative_numbers = true)]
     gravity: f64,
@@ -97,6 +110,32 @@ enum TimingChoice {
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
+enum ModelChoice {
+    /// As much as the recording supports
+    Auto,
+    /// Constant e
+    Constant,
+    /// The time in contact stands in every interval
+    Contact,
+    /// The air slows the ball
+    Drag,
+    /// e is a power of the impact speed
+    Speed,
+}
+
+impl From<ModelChoice> for Choice {
+    fn from(choice: ModelChoice) -> Self {
+        match choice {
+            ModelChoice::Auto => Self::Auto,
+            ModelChoice::Constant => Self::Constant,
+            ModelChoice::Contact => Self::Contact,
+            ModelChoice::Drag => Self::Drag,
+            ModelChoice::Speed => Self::Speed,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
 enum Format {
     /// For a person
     Text,
@@ -160,6 +199,10 @@ fn listen(arguments: &Arguments, mut stream: Stream<impl Read>) -> Result<Report
             height_m: settings.height_m,
             height_std_m: settings.height_std_m,
             gravity_m_per_s2: settings.gravity_m_per_s2,
+            mass_kg: settings.mass_kg,
+            diameter_m: settings.diameter_m,
+            contact_time_s: settings.contact_time_s,
+            model: settings.model,
             start_s: settings.start_s,
             end_s: settings.end_s,
             timing: settings.timing,
@@ -173,6 +216,10 @@ fn settings(arguments: &Arguments) -> Settings {
         height_m: arguments.height,
         height_std_m: arguments.height_error,
         gravity_m_per_s2: arguments.gravity,
+        mass_kg: arguments.mass,
+        diameter_m: arguments.diameter,
+        contact_time_s: arguments.contact_time,
+        model: arguments.model.into(),
         start_s: arguments.start,
         end_s: arguments.end,
         timing: match arguments.timing {

@@ -83,7 +83,11 @@ const HELD: [Held; 7] = [
     Held {
         name: "restitution_error_p90",
         bound: |t| &mut t.restitution_error_p90,
-        value: |r| r.restitution_error_p90,
+        // A few drops of one scene differ by the luck of their bounces more than by how they are analyzed.
+        value: |r| {
+            let all = r.scene.is_none();
+            all.then_some(r.restitution_error_p90).flatten()
+        },
         more_is_better: false,
         margin: (0.1, 2e-4),
     },

@@ -3,7 +3,15 @@
 //! Two ways stand side by side: [`flights`] from the ratios of successive flights, [`total_time`] from height, number
 //! and total time by the paper's equation (25).
 
+mod banded;
+pub mod bounces;
 pub mod flights;
+pub mod ladder;
+mod least_squares;
+pub mod model;
+mod noise;
+mod posterior;
+pub mod stray;
 pub mod total_time;
 
 pub use flights::Flights;

@@ -8,7 +8,8 @@ pub mod text;
 
 use serde::Serialize;
 
-use crate::fit::Estimate;
+use crate::fit::ladder::Candidate;
+use crate::fit::{Estimate, model};
 
 /// Version of the JSON document.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -53,6 +54,14 @@ pub struct SettingsInfo {
     pub height_std_m: f64,
     /// In m/s².
     pub gravity_m_per_s2: f64,
+    /// Mass of the ball in kg.
+    pub mass_kg: Option<f64>,
+    /// Its diameter in metres.
+    pub diameter_m: Option<f64>,
+    /// Its time in contact in seconds.
+    pub contact_time_s: Option<f64>,
+    /// The model asked for.
+    pub model: crate::fit::ladder::Choice,
     /// Where listening began, in seconds.
     pub start_s: Option<f64>,
     /// Where it ended, in seconds.
@@ -97,6 +106,8 @@ pub struct Drop {
     pub model: Model,
     /// Stiffness and damping; null until a contact time is known.
     pub ball: Option<Ball>,
+    /// Where the error of e comes from; null where e has none.
+    pub budget: Option<Budget>,
     /// Evidence that this is a drop and no chance, in nats.
     pub evidence_nats: f64,
     /// Strong events between the impacts that are none.
@@ -178,7 +189,7 @@ pub struct Estimates {
 pub struct Scatter {
     /// Median standard error of the times heard, in seconds.
     pub timing_std_s: Option<f64>,
-    /// Standard deviation of the ln ratios of successive flights, timing included.
+    /// Standard deviation of ln e from bounce to bounce, the times' errors taken out.
     pub bounce_std: Option<f64>,
 }
 
@@ -190,7 +201,49 @@ pub struct Model {
     /// Its parameters.
     pub parameters: serde_json::Map<String, serde_json::Value>,
     /// The models that were compared.
-    pub candidates: Vec<String>,
+    pub candidates: Vec<Candidate>,
+    /// Another model that explains the drop as well, with something else in place of what was selected.
+    pub alike: Option<&'static str>,
+}
+
+impl Model {
+    /// That of too few impacts.
+    #[must_use]
+    pub fn none() -> Self {
+        Self {
+            selected: "constant",
+            parameters: serde_json::Map::new(),
+            candidates: Vec::new(),
+            alike: None,
+        }
+    }
+}
+
+/// Shares of the variance of ln e, by cause; together 1.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Budget {
+    /// Errors of the times.
+    pub timing: f64,
+    /// Scatter of the bounces.
+    pub bounce: f64,
+    /// What was given or assumed of contact, drag and speed dependence.
+    pub inputs: f64,
+    /// That the sizes of the two noises are not known better.
+    pub noise_sizes: f64,
+}
+
+impl Budget {
+    /// From variances.
+    #[must_use]
+    pub fn of(variances: &model::Budget) -> Self {
+        let total = variances.timing + variances.bounce + variances.inputs + variances.noise_sizes;
+        Self {
+            timing: variances.timing / total,
+            bounce: variances.bounce / total,
+            inputs: variances.inputs / total,
+            noise_sizes: variances.noise_sizes / total,
+        }
+    }
 }
 
 /// The mass-spring-damper ball.
@@ -198,14 +251,24 @@ pub struct Model {
 pub struct Ball {
     /// Contact time ΔT.
     pub contact_time_s: f64,
-    /// k.
+    /// Its standard error.
+    pub contact_time_std_s: f64,
+    /// k; null without a mass.
     pub stiffness_n_per_m: Option<f64>,
-    /// c.
+    /// Its standard error, the mass being exact.
+    pub stiffness_std_n_per_m: Option<f64>,
+    /// c; null without a mass.
     pub damping_n_s_per_m: Option<f64>,
+    /// Its standard error, the mass being exact.
+    pub damping_std_n_s_per_m: Option<f64>,
     /// `ω_n`.
     pub natural_frequency_rad_per_s: f64,
+    /// Its standard error.
+    pub natural_frequency_std_rad_per_s: f64,
     /// ζ.
     pub damping_ratio: f64,
+    /// Its standard error.
+    pub damping_ratio_std: f64,
     /// When contact ends.
     pub release_rule: &'static str,
     /// Where the contact time comes from.

@@ -1,0 +1,208 @@
+//! From the times of a drop to its restitution and its ball, by the model that the recording supports.
+
+use serde_json::{Map, Value};
+
+use super::Settings;
+use crate::Error;
+use crate::fit::Estimate;
+use crate::fit::bounces::Known;
+use crate::fit::flights::Impact;
+use crate::fit::ladder::{Climb, Inputs, climb};
+use crate::fit::model::Parameter;
+use crate::physics::{
+    Air, ContactErrors, FlightLaw, Oscillator, ParameterErrors, Restitution as Ratio, Sphere,
+};
+use crate::report::{Ball, Budget, Model, Restitution, Warning};
+
+/// A contact time whose interval spans this factor or more is not determined.
+const UNDETERMINED: f64 = 3.0;
+/// The drag coefficient of a sphere is known to 6 % (0.4 to 0.5), K with mass and diameter to a little more.
+const DRAG_ERROR: f64 = 0.07;
+/// A contact time that is given is taken to be right within 5 %, unless it is measured no one knows it better.
+const CONTACT_ERROR: f64 = 0.05;
+
+/// What is known of the ball, from the settings.
+pub(super) fn inputs(settings: &Settings) -> Result<Inputs, Error> {
+    let drag = match (settings.mass_kg, settings.diameter_m) {
+        (Some(mass_kg), Some(diameter_m)) => {
+            let sphere = Sphere {
+                mass_kg,
+                diameter_m,
+            };
+            let law = FlightLaw::in_air(settings.gravity_m_per_s2, sphere, Air::default())?;
+            let rate = law
+                .terminal_speed_m_per_s()
+                .map(|v| law.gravity_m_per_s2() / v);
+            rate.map(|r| known(r * r, DRAG_ERROR))
+        }
+        _ => None,
+    };
+    Ok(Inputs {
+        contact_s: settings.contact_time_s.map(|t| known(t, CONTACT_ERROR)),
+        drag_per_s2: drag,
+    })
+}
+
+const fn known(value: f64, relative: f64) -> Known {
+    Known {
+        value,
+        std: value * relative,
+    }
+}
+
+/// The restitution of a drop and what hangs on it.
+#[derive(Debug, Clone)]
+pub(super) struct Modelled {
+    pub restitution: Option<Restitution>,
+    pub bounce_std: Option<f64>,
+    pub model: Model,
+    pub ball: Option<Ball>,
+    pub budget: Option<Budget>,
+    pub warnings: Vec<Warning>,
+}
+
+/// Fits a drop.
+pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, Error> {
+    let inputs = inputs(settings)?;
+    let Some(climb) = climb(timed, &inputs, settings.model) else {
+        return Ok(Modelled {
+            restitution: None,
+            bounce_std: None,
+            model: Model::none(),
+            ball: None,
+            budget: None,
+            warnings: Vec::new(),
+        });
+    };
+    let fit = &climb.fit;
+    let estimate = exponential(&fit.ln_restitution);
+    let told = estimate.std_error.is_some();
+    Ok(Modelled {
+        restitution: Some(Restitution {
+            estimate,
+            at_speed_m_per_s: Some(0.5 * settings.gravity_m_per_s2 * fit.mean_speed_s),
+            method: if told {
+                "least_squares"
+            } else {
+                "single_ratio"
+            },
+        }),
+        bounce_std: told.then_some(fit.bounce_std),
+        ball: ball(&climb, &inputs, settings),
+        budget: told.then(|| Budget::of(&fit.budget)),
+        warnings: warnings(&climb),
+        model: model(&climb),
+    })
+}
+
+/// e from ln e: the median, its standard deviation to first order, and the ends of the interval.
+fn exponential(ln: &Parameter) -> Estimate {
+    Estimate {
+        value: ln.value.exp(),
+        std_error: ln.std.map(|s| ln.value.exp() * s),
+        interval95: ln.interval95.map(|ends| ends.map(f64::exp)),
+    }
+}
+
+fn model(climb: &Climb) -> Model {
+    let fit = &climb.fit;
+    let mut parameters = Map::new();
+    parameters.insert(
+        "restitution".to_owned(),
+        fit.ln_restitution.value.exp().into(),
+    );
+    let mut add = |name: &str, parameter: Option<Parameter>| {
+        let Some(p) = parameter else { return };
+        let mut entry = Map::new();
+        entry.insert("value".to_owned(), p.value.into());
+        entry.insert("std_error".to_owned(), p.std.into());
+        entry.insert(
+            "interval95".to_owned(),
+            p.interval95.map(|ends| ends.to_vec()).into(),
+        );
+        parameters.insert(name.to_owned(), Value::Object(entry));
+    };
+    add("contact_time_s", fit.contact_s);
+    add("drag_per_s2", fit.drag_per_s2);
+    add("speed_exponent", fit.exponent);
+    Model {
+        selected: climb.selected,
+        parameters,
+        candidates: climb.candidates.clone(),
+        alike: climb.alike,
+    }
+}
+
+/// The ball with this restitution and contact time, if the contact time is known well enough.
+fn ball(climb: &Climb, inputs: &Inputs, settings: &Settings) -> Option<Ball> {
+    let contact = climb.fit.contact_s?;
+    let ([low, high], std_s) = (contact.interval95?, contact.std?);
+    if low <= 0.0 || high >= UNDETERMINED * low {
+        return None;
+    }
+    let restitution = Ratio::from_ln(climb.fit.ln_restitution.value).ok()?;
+    let oscillator = Oscillator::from_contact(restitution, contact.value).ok()?;
+    let errors = ContactErrors {
+        restitution: restitution.value() * climb.fit.ln_restitution.std?,
+        contact_time_s: std_s,
+        correlation: 0.0,
+    };
+    let relative = ParameterErrors::new(restitution, contact.value, &errors).ok()?;
+    let stiffness = settings
+        .mass_kg
+        .map(|m| m * oscillator.stiffness_per_mass_per_s2());
+    let damping = settings
+        .mass_kg
+        .map(|m| m * oscillator.damping_per_mass_per_s());
+    Some(Ball {
+        contact_time_s: contact.value,
+        contact_time_std_s: std_s,
+        stiffness_n_per_m: stiffness,
+        stiffness_std_n_per_m: stiffness.map(|k| k * relative.stiffness),
+        damping_n_s_per_m: damping,
+        damping_std_n_s_per_m: damping.map(|c| c * relative.damping),
+        natural_frequency_rad_per_s: oscillator.natural_frequency_rad_per_s(),
+        natural_frequency_std_rad_per_s: oscillator.natural_frequency_rad_per_s()
+            * relative.natural_frequency,
+        damping_ratio: oscillator.damping_ratio(),
+        damping_ratio_std: oscillator.damping_ratio() * relative.damping_ratio,
+        release_rule: "zero_displacement",
+        source: if inputs.contact_s.is_some() {
+            "given"
+        } else {
+            "intervals"
+        },
+    })
+}
+
+fn warnings(climb: &Climb) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let strays = &climb.fit.strays;
+    let numbers = |of: &[usize]| {
+        let numbers: Vec<String> = of.iter().map(|i| (i + 1).to_string()).collect();
+        numbers.join(", ")
+    };
+    if !strays.bounces.is_empty() {
+        let message = format!(
+            "the rebound at impact {} is unlike the others and counts for little: spin, or a spot of the surface",
+            numbers(&strays.bounces)
+        );
+        warnings.push(Warning::new("wild_bounce", message));
+    }
+    if !strays.times.is_empty() {
+        let message = format!(
+            "the time of impact {} fits none of its neighbours and counts for little",
+            numbers(&strays.times)
+        );
+        warnings.push(Warning::new("stray_time", message));
+    }
+    if let Some(other) = climb.alike {
+        let message = format!(
+            "the model {other} explains the flights as well as {}: drag and an e that depends on speed cannot be told \
+             apart without --mass and --diameter",
+            climb.selected
+        );
+        warnings.push(Warning::new("models_alike", message));
+    }
+    warnings
+}

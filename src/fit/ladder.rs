@@ -1,0 +1,177 @@
+//! The ladder of models: constant e, and what is added where the recording supports it or the user knows it.
+
+use super::bounces::{Known, Terms};
+use super::flights::Impact;
+use super::model::{Fit, fit};
+
+/// Which rung to take.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Choice {
+    /// The one that the recording supports.
+    #[default]
+    Auto,
+    /// Constant e.
+    Constant,
+    /// And the time in contact, which stands in every interval.
+    Contact,
+    /// And the drag of the air.
+    Drag,
+    /// And a power of the impact speed.
+    Speed,
+}
+
+/// What is known of the ball beforehand.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Inputs {
+    /// Contact time in seconds.
+    pub contact_s: Option<Known>,
+    /// `K = (g/v_t)²` in s⁻², from mass and diameter.
+    pub drag_per_s2: Option<Known>,
+}
+
+/// One rung: what is fitted on it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Rung {
+    name: &'static str,
+    contact: bool,
+    drag: bool,
+    speed: bool,
+}
+
+/// From the simplest up. A model is compared with those that stand before it.
+const RUNGS: [Rung; 6] = [
+    rung("constant", false, false, false),
+    rung("contact", true, false, false),
+    rung("drag", false, true, false),
+    rung("speed", false, false, true),
+    rung("contact+drag", true, true, false),
+    rung("contact+speed", true, false, true),
+];
+
+const fn rung(name: &'static str, contact: bool, drag: bool, speed: bool) -> Rung {
+    Rung {
+        name,
+        contact,
+        drag,
+        speed,
+    }
+}
+
+/// C of balls at large, in seconds: from a steel ball's tenth of a millisecond to a basketball's twelve.
+const CONTACT: Known = Known {
+    value: 2e-3,
+    std: 4e-3,
+};
+/// K of balls at large, s⁻²: nearly 0 for steel, 1.4 for a ping-pong ball, 5 for a foam ball.
+const DRAG: Known = Known {
+    value: 1.0,
+    std: 2.0,
+};
+/// p of balls at large: e of a tennis ball falls by 6 % where the speed grows by e, that of a plastic one by 25 %.
+const EXPONENT: Known = Known {
+    value: 0.05,
+    std: 0.1,
+};
+/// A rung is climbed where the data are likelier on it by this many nats: odds of 7 to 1.
+const WORTH: f64 = 2.0;
+/// Two models whose evidence differs by less than this are not told apart: odds of 20 to 1.
+const ALIKE: f64 = 3.0;
+
+/// A rung and how well it explains the drop.
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+pub struct Candidate {
+    /// Its name.
+    pub model: &'static str,
+    /// ln of its evidence, less that of the first.
+    pub gain_nats: f64,
+    /// Its e.
+    pub restitution: f64,
+}
+
+/// The rung taken and those compared.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Climb {
+    /// Name of the rung.
+    pub selected: &'static str,
+    /// The fit.
+    pub fit: Fit,
+    /// All that were fitted.
+    pub candidates: Vec<Candidate>,
+    /// Another model, with something else in place of what was selected, that explains the drop as well.
+    pub alike: Option<&'static str>,
+}
+
+/// Fits the rung chosen, or climbs as far as the recording supports.
+///
+/// Evidence is the likelihood of the times with all parameters and the sizes of the noises integrated out over what is
+/// known of balls at large, so a parameter that buys nothing costs. None for fewer than three impacts.
+#[must_use]
+pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Climb> {
+    let (contact, drag) = (inputs.contact_s.is_some(), inputs.drag_per_s2.is_some());
+    let wanted = |rung: &Rung| match choice {
+        Choice::Auto => true,
+        Choice::Contact if !contact => rung.name == "contact",
+        Choice::Drag if !drag => rung.name == "drag",
+        Choice::Speed => rung.name == "speed",
+        // What is known is in every rung.
+        Choice::Constant | Choice::Contact | Choice::Drag => rung.name == "constant",
+    };
+    let fits: Vec<(&Rung, Fit)> = RUNGS
+        .iter()
+        .filter(|r| wanted(r))
+        .filter(|r| is_fitted(r, inputs))
+        .filter_map(|r| Some((r, fit(impacts, &terms(r, inputs))?)))
+        .collect();
+    let lowest = fits.first()?.1.ln_evidence;
+    let mut best = 0;
+    for (i, (_, fit)) in fits.iter().enumerate() {
+        // Two parameters have to earn twice as much as one.
+        let dearer = parameters(fits[i].0) - parameters(fits[best].0);
+        if fit.ln_evidence > fits[best].1.ln_evidence + WORTH * dearer.max(0.0) {
+            best = i;
+        }
+    }
+    let candidates = fits
+        .iter()
+        .map(|(rung, fit)| Candidate {
+            model: rung.name,
+            gain_nats: fit.ln_evidence - lowest,
+            restitution: fit.ln_restitution.value.exp(),
+        })
+        .collect();
+    let rival =
+        |rung: &Rung| (rung.drag != fits[best].0.drag) && (rung.speed != fits[best].0.speed);
+    let alike = fits
+        .iter()
+        .find(|(r, f)| rival(r) && (f.ln_evidence - fits[best].1.ln_evidence).abs() < ALIKE)
+        .map(|(r, _)| r.name);
+    Some(Climb {
+        selected: fits[best].0.name,
+        fit: fits[best].1.clone(),
+        candidates,
+        alike,
+    })
+}
+
+/// A term whose value is known is part of every rung and not a rung of its own.
+const fn is_fitted(rung: &Rung, inputs: &Inputs) -> bool {
+    !(rung.contact && inputs.contact_s.is_some() || rung.drag && inputs.drag_per_s2.is_some())
+}
+
+fn terms(rung: &Rung, inputs: &Inputs) -> Terms {
+    Terms {
+        contact: inputs.contact_s.or_else(|| rung.contact.then_some(CONTACT)),
+        drag: inputs.drag_per_s2.or_else(|| rung.drag.then_some(DRAG)),
+        speed: rung.speed.then_some(EXPONENT),
+    }
+}
+
+/// How many parameters a rung fits.
+fn parameters(rung: &Rung) -> f64 {
+    [rung.contact, rung.drag, rung.speed]
+        .iter()
+        .filter(|on| **on)
+        .map(|_| 1.0)
+        .sum()
+}

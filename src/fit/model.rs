@@ -1,0 +1,333 @@
+//! One model fitted to the impact times of a drop: e with an interval that is true.
+
+use super::bounces::{Bounces, Known, Terms, Values};
+use super::flights::Impact;
+use super::least_squares::{Prior, Solution};
+use super::noise::{Noise, Sizes};
+use super::posterior::{Posterior, likeliest};
+use super::stray::{self, Strays};
+
+/// Fewest impacts with a ratio of flights.
+const FEWEST: usize = 3;
+/// Rounds in which the model is made linear anew around the times and parameters found.
+const ROUNDS: usize = 5;
+/// An impact that was not heard may be off by this share of the flights around it.
+const UNHEARD: f64 = 0.3;
+/// The model is linear enough where nothing moves by more than this: times as shares of the flights, K in s⁻².
+const SETTLED: f64 = 1e-3;
+/// A model that still moves by this much after the last round has no solution near.
+const RUNAWAY: f64 = 0.2;
+/// C is shorter than any interval by this share, K no greater than that of a balloon.
+const LONGEST_CONTACT: f64 = 0.9;
+const GREATEST_DRAG: f64 = 100.0;
+
+/// A model fitted to a drop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fit {
+    /// ln e at the mean speed: mean, standard deviation, and the ends of the interval that holds it with 95 %; none
+    /// for one ratio alone.
+    pub ln_restitution: Parameter,
+    /// C in seconds, if the model has it.
+    pub contact_s: Option<Parameter>,
+    /// K in s⁻², if the model has it.
+    pub drag_per_s2: Option<Parameter>,
+    /// p, if the model has it.
+    pub exponent: Option<Parameter>,
+    /// `σ_e`, the scatter of ln e from bounce to bounce.
+    pub bounce_std: f64,
+    /// φ, by how much the stated errors of the times are too small.
+    pub timing_scale: f64,
+    /// Geometric mean of the speeds of arrival, as `2v/g` in seconds.
+    pub mean_speed_s: f64,
+    /// ln of the evidence for the model: comparable between models of one drop.
+    pub ln_evidence: f64,
+    /// Where the variance of ln e comes from.
+    pub budget: Budget,
+    /// Bounces and times that stray.
+    pub strays: Strays,
+}
+
+/// A number with its uncertainty.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Parameter {
+    /// Mean.
+    pub value: f64,
+    /// Standard deviation; none where the data do not tell.
+    pub std: Option<f64>,
+    /// It lies between these in 95 of 100 cases; none where the data do not tell.
+    pub interval95: Option<[f64; 2]>,
+}
+
+/// Variances of ln e by cause; together that of ln e.
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+pub struct Budget {
+    /// By the errors of the times.
+    pub timing: f64,
+    /// By the scatter of the bounces.
+    pub bounce: f64,
+    /// By what is known beforehand of contact, drag and speed dependence: their inputs' errors.
+    pub inputs: f64,
+    /// By not knowing the sizes of the noises.
+    pub noise_sizes: f64,
+}
+
+/// Fits a model. None for fewer than three impacts, a flight that is not longer than the contact, or parameters that run
+/// away.
+#[must_use]
+pub fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
+    if impacts.len() < FEWEST {
+        return None;
+    }
+    let mut state = State::new(impacts, terms);
+    state.settle()?;
+    let strays = stray::find(&mut state)?;
+    let bounces = state.bounces()?;
+    let noise = state.noise(&bounces);
+    let priors = state.priors();
+    let posterior = Posterior::over_noise(&bounces, &noise, &priors)?;
+    Some(state.summary(&bounces, &noise, &priors, &posterior, strays))
+}
+
+/// A trial of times and parameters.
+#[derive(Debug, Clone)]
+pub(super) struct State<'a> {
+    impacts: &'a [Impact],
+    terms: &'a Terms,
+    trial_s: Vec<f64>,
+    /// The shorter flight next to each impact, in seconds.
+    shorter: Vec<f64>,
+    values: Values,
+    /// Squares of the times' standard errors.
+    pub time_variances: Vec<f64>,
+    /// By how much the variance of each bounce is greater than usual.
+    pub wildness: Vec<f64>,
+}
+
+impl<'a> State<'a> {
+    fn new(impacts: &'a [Impact], terms: &'a Terms) -> Self {
+        let trial_s: Vec<f64> = impacts.iter().map(|i| i.time_s).collect();
+        let shorter: Vec<f64> = (0..impacts.len())
+            .map(|k| shorter_flight(&trial_s, k))
+            .collect();
+        let time_variances = (0..impacts.len())
+            .map(|k| {
+                let std_s = if impacts[k].heard {
+                    impacts[k].std_s.max(LEAST_TIME_STD_S)
+                } else {
+                    UNHEARD * shorter[k]
+                };
+                std_s * std_s
+            })
+            .collect();
+        let centre = |known: Option<Known>| known.map_or(0.0, |k| k.value);
+        let mut state = Self {
+            impacts,
+            terms,
+            trial_s,
+            shorter,
+            values: Values::default(),
+            time_variances,
+            wildness: vec![1.0; impacts.len() - 2],
+        };
+        state.set_values(centre(terms.contact), centre(terms.drag));
+        state
+    }
+
+    fn set_values(&mut self, contact_s: f64, drag_per_s2: f64) {
+        let shortest = self.trial_s.windows(2).map(|w| w[1] - w[0]);
+        let shortest = shortest.fold(f64::INFINITY, f64::min);
+        self.values = Values {
+            contact_s: contact_s.clamp(0.0, LONGEST_CONTACT * shortest.max(0.0)),
+            drag_per_s2: drag_per_s2.clamp(0.0, GREATEST_DRAG),
+        };
+    }
+
+    /// The length of the shorter flight next to an impact.
+    pub(super) fn shorter_flight(&self, impact: usize) -> f64 {
+        self.shorter[impact]
+    }
+
+    pub(super) fn bounces(&self) -> Option<Bounces> {
+        Bounces::around(&self.trial_s, self.impacts, self.terms, self.values)
+    }
+
+    pub(super) fn noise(&self, bounces: &Bounces) -> Noise {
+        Noise::new(bounces, &self.time_variances, self.wildness.clone())
+    }
+
+    /// What is known of each fitted parameter, counted from its trial value.
+    pub(super) fn priors(&self) -> Vec<Prior> {
+        let mut priors = vec![Prior::FLAT];
+        for (known, trial, least) in [
+            (self.terms.contact, self.values.contact_s, 0.0),
+            (self.terms.drag, self.values.drag_per_s2, 0.0),
+            (self.terms.speed, 0.0, f64::NEG_INFINITY),
+        ] {
+            priors.extend(known.map(|k| Prior {
+                precision: k.std.powi(-2),
+                centre: k.value - trial,
+                least: least - trial,
+            }));
+        }
+        priors
+    }
+
+    /// Finds times and parameters by rounds of linear fits at the likeliest noise.
+    pub(super) fn settle(&mut self) -> Option<()> {
+        let mut moved = f64::INFINITY;
+        for _ in 0..ROUNDS {
+            let bounces = self.bounces()?;
+            let noise = self.noise(&bounces);
+            let (sizes, solution) = likeliest(&bounces, &noise, &self.priors())?;
+            moved = self.step(&bounces, &noise, sizes, &solution)?;
+            if moved < SETTLED {
+                break;
+            }
+        }
+        (moved < RUNAWAY).then_some(())
+    }
+
+    /// Moves the trial to a solution: the times to where the noise of each is most likely to have come from. Gives the
+    /// largest move as a share of what it may be off.
+    fn step(
+        &mut self,
+        bounces: &Bounces,
+        noise: &Noise,
+        sizes: Sizes,
+        solution: &Solution,
+    ) -> Option<f64> {
+        let pulls = pulls(bounces, noise, sizes, solution)?;
+        let mut largest: f64 = 0.0;
+        for (k, trial_s) in self.trial_s.iter_mut().enumerate() {
+            let off_s =
+                sizes.timing.powi(2) * self.time_variances[k] * time_pull(bounces, &pulls, k);
+            let next_s = self.impacts[k].time_s - off_s;
+            largest = largest.max((next_s - *trial_s).abs() / self.shorter[k]);
+            *trial_s = next_s;
+        }
+        let mut fitted = solution.values.iter().skip(1);
+        let mut next =
+            |known: Option<Known>| known.and_then(|_| fitted.next()).copied().unwrap_or(0.0);
+        let (contact, drag) = (next(self.terms.contact), next(self.terms.drag));
+        let (contact_s, drag_per_s2) = (
+            self.values.contact_s + contact,
+            self.values.drag_per_s2 + drag,
+        );
+        let before = self.values;
+        self.set_values(contact_s, drag_per_s2);
+        let shortest = self.shorter.iter().copied().fold(f64::INFINITY, f64::min);
+        // A value that is held back at its greatest is no solution.
+        let held_back = contact_s > LONGEST_CONTACT * shortest || drag_per_s2 > GREATEST_DRAG;
+        if held_back {
+            return Some(f64::INFINITY);
+        }
+        Some(
+            largest
+                .max((self.values.contact_s - before.contact_s).abs() / shortest)
+                .max((self.values.drag_per_s2 - before.drag_per_s2).abs()),
+        )
+    }
+
+    fn summary(
+        &self,
+        bounces: &Bounces,
+        noise: &Noise,
+        priors: &[Prior],
+        posterior: &Posterior,
+        strays: Strays,
+    ) -> Fit {
+        let known = self.impacts.len() > FEWEST;
+        let parameter = |index: usize, offset: f64| {
+            let (mean, std) = posterior.moments(index);
+            let quantile = |p| offset + posterior.quantile(index, p);
+            Parameter {
+                value: offset + mean,
+                std: known.then_some(std),
+                interval95: known.then(|| [quantile(0.025), quantile(0.975)]),
+            }
+        };
+        let mut index = 0;
+        let mut next = |known: Option<Known>, offset: f64| {
+            known.map(|_| {
+                index += 1;
+                parameter(index, offset)
+            })
+        };
+        Fit {
+            ln_restitution: parameter(0, 0.0),
+            contact_s: next(self.terms.contact, self.values.contact_s),
+            drag_per_s2: next(self.terms.drag, self.values.drag_per_s2),
+            exponent: next(self.terms.speed, 0.0),
+            bounce_std: posterior.mean_of(|n, _| n.bounce),
+            timing_scale: posterior.mean_of(|n, _| n.timing),
+            mean_speed_s: bounces.mean_ln_speed.exp(),
+            ln_evidence: posterior.ln_evidence,
+            budget: budget(bounces, noise, priors, posterior),
+            strays,
+        }
+    }
+}
+
+/// Times are not taken to be better than this, in seconds: a hundredth of a sample at 192 kHz.
+const LEAST_TIME_STD_S: f64 = 5e-8;
+
+fn shorter_flight(times_s: &[f64], impact: usize) -> f64 {
+    let near = &times_s[impact.saturating_sub(1)..(impact + 2).min(times_s.len())];
+    near.windows(2)
+        .map(|w| w[1] - w[0])
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// `Σ⁻¹·(z − Xβ)`: how hard each bounce pulls at the fit.
+pub(super) fn pulls(
+    bounces: &Bounces,
+    noise: &Noise,
+    sizes: Sizes,
+    solution: &Solution,
+) -> Option<Vec<f64>> {
+    let mut left = bounces.ln_e.clone();
+    for (column, value) in bounces.columns.iter().zip(&solution.values) {
+        for (l, x) in left.iter_mut().zip(column) {
+            *l -= value * x;
+        }
+    }
+    Some(noise.factors(sizes)?.solve(&left))
+}
+
+/// The part of `Aᵀ·pulls` that belongs to one time.
+pub(super) fn time_pull(bounces: &Bounces, pulls: &[f64], time: usize) -> f64 {
+    (0..3)
+        .filter_map(|side| {
+            let bounce = time.checked_sub(side)?;
+            Some(bounces.slopes.get(bounce)?[side] * pulls[bounce])
+        })
+        .sum()
+}
+
+/// The variance of `θ = Σ a_j·z_j` and the prior part, `a = V·XᵀΣ⁻¹`, at each size of the noises, and its mean.
+fn budget(bounces: &Bounces, noise: &Noise, priors: &[Prior], posterior: &Posterior) -> Budget {
+    let mean = posterior.moments(0).0;
+    let inputs = posterior.mean_of(|_, s| {
+        let pairs = s.covariance[0].iter().zip(priors);
+        pairs.map(|(v, p)| v * v * p.precision).sum()
+    });
+    let share = |of: fn(Sizes, (f64, f64)) -> f64| {
+        posterior.mean_of(|sizes, s| {
+            let mut target = vec![0.0; bounces.ln_e.len()];
+            for (column, v) in bounces.columns.iter().zip(&s.covariance[0]) {
+                for (t, x) in target.iter_mut().zip(column) {
+                    *t += v * x;
+                }
+            }
+            noise
+                .factors(sizes)
+                .map_or(0.0, |f| of(sizes, noise.shares(&f.solve(&target))))
+        })
+    };
+    Budget {
+        timing: share(|sizes, (timing, _)| sizes.timing.powi(2) * timing),
+        bounce: share(|sizes, (_, own)| sizes.bounce.powi(2) * own),
+        inputs,
+        noise_sizes: posterior.mean_of(|_, s| (s.values[0] - mean).powi(2)),
+    }
+}

@@ -1,0 +1,91 @@
+//! Two kinds of noise: each bounce scatters, and each time is uncertain.
+
+use super::banded::{Banded, Factors};
+use super::bounces::Bounces;
+
+/// The covariance of ln e from bounce to bounce, before the noises' sizes are known.
+///
+/// # Formula
+/// ```text
+/// Σ = σ_e²·diag(w) + φ²·A·diag(s²)·Aᵀ
+/// ```
+/// A holds the derivatives of ln e by the times ([`Bounces::slopes`]), s are the stated standard errors of the times, φ is
+/// near 1 and says by how much they are all wrong, w is 1 but for a wild bounce.
+#[derive(Debug, Clone)]
+pub(super) struct Noise {
+    /// `A·diag(s²)·Aᵀ`.
+    timing: Banded,
+    /// w.
+    pub wildness: Vec<f64>,
+}
+
+/// Sizes of the noises.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sizes {
+    /// `σ_e`.
+    pub bounce: f64,
+    /// φ.
+    pub timing: f64,
+}
+
+impl Noise {
+    /// From the squares of the times' standard errors, one more at each end than there are bounces.
+    pub(super) fn new(bounces: &Bounces, time_variances: &[f64], wildness: Vec<f64>) -> Self {
+        let slopes = &bounces.slopes;
+        let shared = |i: usize, step: usize| -> f64 {
+            (step..3)
+                .map(|k| slopes[i][k] * slopes[i + step][k - step] * time_variances[i + k])
+                .sum()
+        };
+        let diagonal = |step: usize| {
+            (0..slopes.len().saturating_sub(step))
+                .map(|i| shared(i, step))
+                .collect()
+        };
+        Self {
+            timing: Banded {
+                main: diagonal(0),
+                first: diagonal(1),
+                second: diagonal(2),
+            },
+            wildness,
+        }
+    }
+
+    /// Variance of ln e of each bounce by the times alone.
+    pub(super) fn timing_variances(&self) -> &[f64] {
+        &self.timing.main
+    }
+
+    /// The share of the variance of each bounce that is its own and not that of the times.
+    pub(super) fn own_shares(&self, sizes: Sizes) -> impl Iterator<Item = f64> + '_ {
+        let (own, scale) = (sizes.bounce.powi(2), sizes.timing.powi(2));
+        let pairs = self.timing.main.iter().zip(&self.wildness);
+        pairs.map(move |(t, w)| own * w / (own * w + scale * t))
+    }
+
+    /// The factors of Σ; none where it is singular in the precision at hand.
+    pub(super) fn factors(&self, sizes: Sizes) -> Option<Factors> {
+        let (own, scale) = (sizes.bounce.powi(2), sizes.timing.powi(2));
+        let scaled = |d: &[f64]| d.iter().map(|x| scale * x).collect();
+        let main = self.timing.main.iter().zip(&self.wildness);
+        Banded {
+            main: main.map(|(t, w)| scale * t + own * w).collect(),
+            first: scaled(&self.timing.first),
+            second: scaled(&self.timing.second),
+        }
+        .factors()
+    }
+
+    /// `aᵀ·A·diag(s²)·Aᵀ·a` and `aᵀ·diag(w)·a`: what the noises of unit size make of a weighted sum of ln e.
+    pub(super) fn shares(&self, weights: &[f64]) -> (f64, f64) {
+        let product = |d: &[f64], step: usize| -> f64 {
+            let pairs = weights.iter().zip(&weights[step.min(weights.len())..]);
+            pairs.zip(d).map(|((a, b), x)| a * b * x).sum()
+        };
+        let timing = product(&self.timing.main, 0)
+            + 2.0 * (product(&self.timing.first, 1) + product(&self.timing.second, 2));
+        let own = weights.iter().zip(&self.wildness).map(|(a, w)| a * a * w);
+        (timing, own.sum())
+    }
+}

@@ -1,0 +1,165 @@
+//! What is known of ln e when the sizes of the noises are integrated out.
+
+use statrs::distribution::{ContinuousCDF, Normal};
+
+use super::bounces::Bounces;
+use super::least_squares::{Prior, Solution, solve};
+use super::noise::{Noise, Sizes};
+use crate::units::real;
+
+/// Range of `σ_e`: below it no ball is known, and a bounce that differs by a third is none.
+const BOUNCE: (f64, f64) = (1e-6, 0.3);
+/// Steps over that range in which the likelihood is searched for: a factor of four each, twice narrowed.
+const COARSE: usize = 10;
+const NARROWINGS: usize = 2;
+/// Steps over the part that matters.
+const FINE: usize = 13;
+/// What lies this many nats below the best is left out.
+const NEGLIGIBLE: f64 = 12.0;
+/// Standard deviation of ln φ: the stated errors of the times are taken to be right within a quarter.
+const TIMING_DOUBT: f64 = 0.25;
+/// Nodes and weights of Gauss and Hermite's rule for a standard normal variable: ±√3 and 0.
+const HERMITE: [(f64, f64); 3] = [
+    (-1.732_050_807_568_877_2, 1.0 / 6.0),
+    (0.0, 2.0 / 3.0),
+    (1.732_050_807_568_877_2, 1.0 / 6.0),
+];
+
+/// Mixture of the solutions at all sizes of the noises, each by its share of the evidence.
+#[derive(Debug, Clone)]
+pub(super) struct Posterior {
+    parts: Vec<(f64, Sizes, Solution)>,
+    /// ln of the evidence for the model.
+    pub ln_evidence: f64,
+}
+
+impl Posterior {
+    /// Integrates over both sizes. None if no size of the noises has a solution.
+    ///
+    /// # Formula
+    /// ```text
+    /// p(θ) ∝ ∬ L(σ_e, φ)·N(θ; θ̂, V)·p(σ_e)·p(φ) dσ_e dφ,   p(σ_e) ∝ σ_e/(σ_e² + τ²)
+    /// ```
+    /// τ is the scatter of ln e that the times alone make in the best timed bounces: well above it `σ_e` is a scale and its
+    /// prior that of a scale. Well below it nothing can be told of `σ_e`; that the data do not show it is no reason to
+    /// believe that it is nothing, so small values count less, as in Jeffreys' prior for a variance beside a known one.
+    pub(super) fn over_noise(bounces: &Bounces, noise: &Noise, priors: &[Prior]) -> Option<Self> {
+        let floor = floor(noise);
+        let at = |ln_bounce: f64, timing: f64| {
+            let sizes = Sizes {
+                bounce: ln_bounce.exp(),
+                timing,
+            };
+            let solution = solve(bounces, noise, sizes, priors)?;
+            // The density by ln σ_e is that by σ_e times σ_e.
+            let prior = (sizes.bounce.powi(2) / (sizes.bounce.powi(2) + floor.powi(2))).ln();
+            Some((solution.ln_likelihood + prior, sizes, solution))
+        };
+        let (from, to) = range(|ln_bounce| at(ln_bounce, 1.0).map(|p| p.0))?;
+        let step = (to - from) / real(FINE - 1);
+        let mut parts: Vec<(f64, Sizes, Solution)> = Vec::with_capacity(FINE * HERMITE.len());
+        for k in 0..FINE {
+            for (node, weight) in HERMITE {
+                let part = at(from + real(k) * step, (TIMING_DOUBT * node).exp());
+                parts.extend(part.map(|(ln, sizes, s)| (ln + weight.ln(), sizes, s)));
+            }
+        }
+        let best = parts.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
+        let mut total = 0.0;
+        for (weight, ..) in &mut parts {
+            *weight = (*weight - best).exp();
+            total += *weight;
+        }
+        parts.iter_mut().for_each(|p| p.0 /= total);
+        (total > 0.0).then(|| Self {
+            parts,
+            ln_evidence: best + (total * step).ln(),
+        })
+    }
+
+    /// Mean and standard deviation of a parameter, θ being number 0.
+    pub(super) fn moments(&self, parameter: usize) -> (f64, f64) {
+        let mean = self.mean_of(|_, s| s.values[parameter]);
+        let variance = self.mean_of(|_, s| {
+            s.covariance[parameter][parameter] + (s.values[parameter] - mean).powi(2)
+        });
+        (mean, variance.sqrt())
+    }
+
+    /// Mean of something over the mixture.
+    pub(super) fn mean_of(&self, of: impl Fn(Sizes, &Solution) -> f64) -> f64 {
+        self.parts.iter().map(|(w, n, s)| w * of(*n, s)).sum()
+    }
+
+    /// The value below which a parameter lies with this probability.
+    pub(super) fn quantile(&self, parameter: usize, probability: f64) -> f64 {
+        let normal = Normal::standard();
+        let below = |x: f64| {
+            self.mean_of(|_, s| {
+                normal.cdf((x - s.values[parameter]) / s.covariance[parameter][parameter].sqrt())
+            })
+        };
+        let (mean, std) = self.moments(parameter);
+        // Chebyshev: not even 1 in 400 lies beyond 20 standard deviations.
+        let (mut low, mut high) = (mean - 20.0 * std, mean + 20.0 * std);
+        for _ in 0..BISECTIONS {
+            let middle = 0.5 * (low + high);
+            if below(middle) < probability {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        0.5 * (low + high)
+    }
+}
+
+/// The sizes of the noises that are likeliest with the stated errors of the times, and their solution.
+pub(super) fn likeliest(
+    bounces: &Bounces,
+    noise: &Noise,
+    priors: &[Prior],
+) -> Option<(Sizes, Solution)> {
+    let at = |ln_bounce: f64| {
+        let sizes = Sizes {
+            bounce: ln_bounce.exp(),
+            timing: 1.0,
+        };
+        Some((sizes, solve(bounces, noise, sizes, priors)?))
+    };
+    let (from, to) = range(|ln_bounce| at(ln_bounce).map(|p| p.1.ln_likelihood))?;
+    let step = (to - from) / real(FINE - 1);
+    let parts = (0..FINE).filter_map(|k| at(from + real(k) * step));
+    parts.max_by(|a, b| a.1.ln_likelihood.total_cmp(&b.1.ln_likelihood))
+}
+
+/// Forty standard deviations halved this often leave a millionth of one.
+const BISECTIONS: usize = 26;
+
+/// τ: the harmonic mean of the timing variances, as a standard deviation.
+fn floor(noise: &Noise) -> f64 {
+    let variances = noise.timing_variances();
+    let precision: f64 = variances.iter().map(|v| 1.0 / v).sum();
+    (real(variances.len()) / precision).sqrt()
+}
+
+/// The part of the range of `ln σ_e` that matters.
+fn range(ln_density: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
+    let (first, last) = (BOUNCE.0.ln(), BOUNCE.1.ln());
+    let (mut from, mut to) = (first, last);
+    for _ in 0..NARROWINGS {
+        let step = (to - from) / real(COARSE - 1);
+        let values: Vec<(f64, f64)> = (0..COARSE)
+            .filter_map(|k| {
+                let ln_bounce = from + real(k) * step;
+                Some((ln_bounce, ln_density(ln_bounce)?))
+            })
+            .collect();
+        let best = values.iter().map(|v| v.1).fold(f64::NEG_INFINITY, f64::max);
+        let mut inside = values.iter().filter(|v| v.1 > best - NEGLIGIBLE);
+        let lowest = inside.next()?.0;
+        let highest = inside.next_back().map_or(lowest, |v| v.0);
+        (from, to) = ((lowest - step).max(first), (highest + step).min(last));
+    }
+    Some((from, to))
+}
