@@ -197,6 +197,9 @@ impl Rise {
     }
 }
 
+/// The step of a recording of 8 bits; what differs by more (clicks in digital silence) was not rounded to it.
+const COARSEST_STEP: f32 = 1.0 / 128.0;
+
 /// Energy per Hz of the noise that rounding makes.
 ///
 /// # Formula
@@ -208,7 +211,7 @@ fn rounding_density(samples: &[f32], bank: &Filterbank) -> f64 {
     let step = differences
         .filter(|&d| d > 0.0)
         .fold(f32::INFINITY, f32::min);
-    if step.is_finite() {
+    if step <= COARSEST_STEP {
         f64::from(step).powi(2) / 12.0 / (0.5 * bank.sample_rate_hz())
     } else {
         0.0
