@@ -64,7 +64,7 @@ fn the_suite_reaches_what_it_reached() {
         .collect();
     let tier = Tier {
         timing: "correlation".to_owned(),
-        model: "constant".to_owned(),
+        model: "auto".to_owned(),
         files: all(&jobs),
     };
     let evaluation = Evaluation::of(&[tier], None);

@@ -8,11 +8,11 @@ use crate::fit::Estimate;
 use crate::fit::bounces::Known;
 use crate::fit::flights::Impact;
 use crate::fit::ladder::{Climb, Inputs, climb};
-use crate::fit::model::Parameter;
+use crate::fit::model::{Budget, Parameter};
 use crate::physics::{
     Air, ContactErrors, FlightLaw, Oscillator, ParameterErrors, Restitution as Ratio, Sphere,
 };
-use crate::report::{Ball, Budget, Model, Restitution, Warning};
+use crate::report::{Ball, Model, Restitution, Warning};
 
 /// A contact time whose interval spans this factor or more is not determined.
 const UNDETERMINED: f64 = 3.0;
@@ -89,7 +89,7 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
         }),
         bounce_std: told.then_some(fit.bounce_std),
         ball: ball(&climb, &inputs, settings),
-        budget: told.then(|| Budget::of(&fit.budget)),
+        budget: told.then_some(fit.budget),
         warnings: warnings(&climb),
         model: model(&climb),
     })

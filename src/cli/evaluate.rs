@@ -16,11 +16,12 @@ use crate::evaluate::rows::{Evaluation, Row, Tier};
 use crate::evaluate::scores::{FileScore, score};
 use crate::evaluate::text::to_text;
 use crate::evaluate::thresholds::Thresholds;
+use crate::fit::ladder::Choice;
 use crate::plot;
 use crate::units::real;
 use crate::wav;
 
-/// Measure the analyzer on recordings with known truth: error and speed of every way of timing.
+/// Measure the analyzer on recordings with known truth: error and speed of every way of timing and every model.
 ///
 /// Each WAV needs a .truth.json of synth beside it, or an Audacity label track NAME.txt with every impact that can be
 /// heard. Exit status: 0 done, 1 a threshold of --check is missed, 2 it could not be done.
@@ -50,28 +51,46 @@ enum Format {
     Json,
 }
 
-/// The ways of timing, from fastest to most exact. The last is the one that thresholds hold.
-const TIMINGS: [(&str, Timing); 3] = [
-    ("envelope", Timing::Envelope),
-    ("fraction", Timing::Fraction),
-    ("correlation", Timing::Correlation),
+/// Every way of timing, from fastest to most exact, with the model that the recording supports; then every rung of the
+/// ladder with the most exact times.
+const WAYS: [Way; 7] = [
+    ("envelope", Timing::Envelope, "auto", Choice::Auto),
+    ("fraction", Timing::Fraction, "auto", Choice::Auto),
+    HELD,
+    (
+        "correlation",
+        Timing::Correlation,
+        "constant",
+        Choice::Constant,
+    ),
+    (
+        "correlation",
+        Timing::Correlation,
+        "contact",
+        Choice::Contact,
+    ),
+    ("correlation", Timing::Correlation, "drag", Choice::Drag),
+    ("correlation", Timing::Correlation, "speed", Choice::Speed),
 ];
-/// The model of the flights. There is one so far.
-const MODEL: &str = "constant";
+/// The way that thresholds hold: what a user gets who asks for nothing else.
+const HELD: Way = ("correlation", Timing::Correlation, "auto", Choice::Auto);
+
+/// Timing and model, with their names.
+type Way = (&'static str, Timing, &'static str, Choice);
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let files = recordings(&arguments.folder)?;
-    let mut tiers = TIMINGS.map(|(timing, _)| Tier {
+    let mut tiers = WAYS.map(|(timing, _, model, _)| Tier {
         timing: timing.to_owned(),
-        model: MODEL.to_owned(),
+        model: model.to_owned(),
         files: Vec::new(),
     });
     let (mut audio_s, mut limit_s) = (0.0, 0.0);
     for (path, reference) in &files {
         // This also brings the file into the cache, so that every tier finds it warm.
         limit_s += limit::read_and_sum_s(path)?;
-        for (tier, (_, timing)) in tiers.iter_mut().zip(TIMINGS) {
-            let score = listen(path, reference, timing).map_err(|e| e.in_file(path))?;
+        for (tier, (_, timing, _, model)) in tiers.iter_mut().zip(WAYS) {
+            let score = listen(path, reference, timing, model).map_err(|e| e.in_file(path))?;
             tier.files.push(score);
         }
         audio_s += tiers[0].files.last().map_or(0.0, |f| f.audio_s);
@@ -161,9 +180,15 @@ fn reference(path: &Path) -> Result<Option<Reference>, Error> {
     Ok(Some(reference))
 }
 
-fn listen(path: &Path, reference: &Reference, timing: Timing) -> Result<FileScore, Error> {
+fn listen(
+    path: &Path,
+    reference: &Reference,
+    timing: Timing,
+    model: Choice,
+) -> Result<FileScore, Error> {
     let settings = Settings {
         timing,
+        model,
         ..Settings::default()
     };
     let start = Instant::now();
@@ -177,10 +202,10 @@ fn listen(path: &Path, reference: &Reference, timing: Timing) -> Result<FileScor
 
 /// What falls short of the thresholds to check; or makes them stricter.
 fn hold(arguments: &Arguments, evaluation: &Evaluation) -> Result<Vec<String>, Error> {
-    let best = TIMINGS[TIMINGS.len() - 1].0;
+    let (timing, _, model, _) = HELD;
     let held = || {
         let rows = evaluation.rows.iter().chain(&evaluation.scenes);
-        rows.filter(|r: &&Row| r.timing == best)
+        rows.filter(|r: &&Row| r.timing == timing && r.model == model)
     };
     let read = |path: &PathBuf| -> Result<Thresholds, Error> {
         let text = fs::read_to_string(path).map_err(|e| Error::from(e).in_file(path))?;

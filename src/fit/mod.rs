@@ -69,6 +69,9 @@ pub fn student_975(degrees_of_freedom: f64) -> f64 {
 }
 
 #[cfg(test)]
+mod drop_tests;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

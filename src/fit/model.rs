@@ -58,7 +58,7 @@ pub struct Parameter {
     pub interval95: Option<[f64; 2]>,
 }
 
-/// Variances of ln e by cause; together that of ln e.
+/// Shares of the variance of ln e by cause; together 1.
 #[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
 pub struct Budget {
     /// By the errors of the times.
@@ -239,9 +239,11 @@ impl<'a> State<'a> {
         let known = self.impacts.len() > FEWEST;
         let parameter = |index: usize, offset: f64| {
             let (mean, std) = posterior.moments(index);
-            let quantile = |p| offset + posterior.quantile(index, p);
+            // What cannot be negative is not said to be, though a normal distribution reaches there.
+            let least = priors[index].least;
+            let quantile = |p| offset + posterior.quantile(index, p).max(least);
             Parameter {
-                value: offset + mean,
+                value: offset + mean.max(least),
                 std: known.then_some(std),
                 interval95: known.then(|| [quantile(0.025), quantile(0.975)]),
             }
@@ -324,10 +326,14 @@ fn budget(bounces: &Bounces, noise: &Noise, priors: &[Prior], posterior: &Poster
                 .map_or(0.0, |f| of(sizes, noise.shares(&f.solve(&target))))
         })
     };
+    let timing = share(|sizes, (timing, _)| sizes.timing.powi(2) * timing);
+    let bounce = share(|sizes, (_, own)| sizes.bounce.powi(2) * own);
+    let noise_sizes = posterior.mean_of(|_, s| (s.values[0] - mean).powi(2));
+    let total = timing + bounce + inputs + noise_sizes;
     Budget {
-        timing: share(|sizes, (timing, _)| sizes.timing.powi(2) * timing),
-        bounce: share(|sizes, (_, own)| sizes.bounce.powi(2) * own),
-        inputs,
-        noise_sizes: posterior.mean_of(|_, s| (s.values[0] - mean).powi(2)),
+        timing: timing / total,
+        bounce: bounce / total,
+        inputs: inputs / total,
+        noise_sizes: noise_sizes / total,
     }
 }

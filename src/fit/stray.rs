@@ -25,16 +25,13 @@ pub struct Strays {
     pub times: Vec<usize>,
 }
 
-/// Finds strays one by one, the clearest first, and lets them count less.
+/// Finds strays one by one, the clearest first, then those that hide one another, and lets them count less.
 ///
 /// A stray is believed where the data are likelier with it than without by more than strays are rarer than others:
 /// `ln L' − ln L > ln((1 − q)/q)`, q = 0.005, each at its likeliest scatter.
 pub(super) fn find(state: &mut State<'_>) -> Option<Strays> {
     let impacts = state.time_variances.len();
-    let mut strays = Strays {
-        times: crowd(state)?,
-        ..Strays::default()
-    };
+    let mut strays = Strays::default();
     while impacts >= FEWEST && strays.bounces.len() + strays.times.len() < impacts / MOST {
         let Some((now, bounce, time)) = suspects(state) else {
             break;
@@ -56,6 +53,8 @@ pub(super) fn find(state: &mut State<'_>) -> Option<Strays> {
         }
         state.settle()?;
     }
+    let crowd = crowd(state, &strays)?;
+    strays.times.extend(crowd);
     strays.bounces.sort_unstable();
     strays.times.sort_unstable();
     Some(strays)
@@ -63,17 +62,26 @@ pub(super) fn find(state: &mut State<'_>) -> Option<Strays> {
 
 /// Times that stray together, as at the end of a drop where nothing is clear any more: many strays hide one another, for
 /// the scatter of all bounces grows by them. So what lies far from the median is tried as a whole, at the price of each.
-fn crowd(state: &mut State<'_>) -> Option<Vec<usize>> {
+///
+/// Bounces next to a stray that is known already are off because of it.
+fn crowd(state: &mut State<'_>, known: &Strays) -> Option<Vec<usize>> {
     let impacts = state.time_variances.len();
     let bounces = state.bounces()?;
     let middle = median(bounces.ln_e.clone());
     let off: Vec<f64> = bounces.ln_e.iter().map(|z| (z - middle).abs()).collect();
     let usual = MAD_TO_STD * median(off.clone());
-    let far: Vec<usize> = (0..off.len())
-        .filter(|&j| off[j] > FAR * usual)
-        .map(|j| j + 1)
-        .collect();
-    if impacts < FEWEST || far.len() < 2 || far.len() > impacts / MOST {
+    let mut suspects: Vec<usize> = (0..off.len()).filter(|&j| off[j] > FAR * usual).collect();
+    suspects.sort_by(|&a, &b| off[b].total_cmp(&off[a]));
+    // A stray time moves the bounce there most, and the bounces next to it the other way.
+    let mut far: Vec<usize> = Vec::new();
+    for impact in suspects.into_iter().map(|j| j + 1) {
+        let mut named = far.iter().chain(&known.times).chain(&known.bounces);
+        if named.all(|n| n.abs_diff(impact) > 1) {
+            far.push(impact);
+        }
+    }
+    let count = far.len() + known.bounces.len() + known.times.len();
+    if impacts < FEWEST || far.len() < 2 || count > impacts / MOST {
         return Some(Vec::new());
     }
     let mut without = state.clone();

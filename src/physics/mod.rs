@@ -49,6 +49,7 @@ mod bounces;
 mod check;
 mod contact;
 mod drop;
+pub(crate) mod ends;
 mod flight;
 mod impacts;
 mod inverse;

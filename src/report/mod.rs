@@ -8,8 +8,9 @@ pub mod text;
 
 use serde::Serialize;
 
-use crate::fit::ladder::Candidate;
-use crate::fit::{Estimate, model};
+use crate::fit::Estimate;
+use crate::fit::ladder::{Candidate, Choice};
+use crate::fit::model::Budget;
 
 /// Version of the JSON document.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -61,7 +62,7 @@ pub struct SettingsInfo {
     /// Its time in contact in seconds.
     pub contact_time_s: Option<f64>,
     /// The model asked for.
-    pub model: crate::fit::ladder::Choice,
+    pub model: Choice,
     /// Where listening began, in seconds.
     pub start_s: Option<f64>,
     /// Where it ended, in seconds.
@@ -106,7 +107,7 @@ pub struct Drop {
     pub model: Model,
     /// Stiffness and damping; null until a contact time is known.
     pub ball: Option<Ball>,
-    /// Where the error of e comes from; null where e has none.
+    /// Where the error of e comes from, as shares that make 1; null where e has none.
     pub budget: Option<Budget>,
     /// Evidence that this is a drop and no chance, in nats.
     pub evidence_nats: f64,
@@ -215,33 +216,6 @@ impl Model {
             parameters: serde_json::Map::new(),
             candidates: Vec::new(),
             alike: None,
-        }
-    }
-}
-
-/// Shares of the variance of ln e, by cause; together 1.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Budget {
-    /// Errors of the times.
-    pub timing: f64,
-    /// Scatter of the bounces.
-    pub bounce: f64,
-    /// What was given or assumed of contact, drag and speed dependence.
-    pub inputs: f64,
-    /// That the sizes of the two noises are not known better.
-    pub noise_sizes: f64,
-}
-
-impl Budget {
-    /// From variances.
-    #[must_use]
-    pub fn of(variances: &model::Budget) -> Self {
-        let total = variances.timing + variances.bounce + variances.inputs + variances.noise_sizes;
-        Self {
-            timing: variances.timing / total,
-            bounce: variances.bounce / total,
-            inputs: variances.inputs / total,
-            noise_sizes: variances.noise_sizes / total,
         }
     }
 }
