@@ -1,4 +1,4 @@
-//! Error against speed: one mark for each way of timing and model, and the limit.
+//! Error against speed: a mark for each way of timing and each model, and the limit.
 
 use super::rows::{Evaluation, Row};
 use crate::plot::{Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Side, Stroke};
@@ -9,53 +9,74 @@ const ROOM: f64 = 3.0;
 /// Where the line stands if the limit was not measured, in seconds of audio per second.
 const UNMEASURED_LIMIT: f64 = 1e4;
 
-/// The median and the 95th percentile of the timing error of each way against its speed, on logarithmic axes, with the
-/// speed of only reading the files as a line. Ways that found nothing have no mark.
+/// Names of marks stand at least this factor apart, or one would cover the other.
+const NAMES_APART: f64 = 1.2;
+
+/// One way of analysis: its name, its speed, and two quantiles of an error.
+struct Mark {
+    name: String,
+    speed: f64,
+    median: f64,
+    upper: f64,
+}
+
+/// On the left the error of the times of each way of timing, on the right the error of e of every way and model, against
+/// speed on logarithmic axes, with the speed of only reading the files as a line. Ways that found nothing have no mark.
 #[must_use]
 pub fn figure(evaluation: &Evaluation) -> Figure {
-    let marks: Vec<(&Row, f64, f64, f64)> = evaluation
-        .rows
-        .iter()
-        .filter_map(|row| {
-            let (median, p95) = (row.timing_error_median_s?, row.timing_error_p95_s?);
-            let speed = row.audio_s_per_s?;
-            (median > 0.0 && p95 > 0.0 && speed > 0.0).then_some((
-                row,
-                speed,
-                1e6 * median,
-                1e6 * p95,
-            ))
-        })
-        .collect();
-    let lowest = marks
-        .iter()
-        .map(|m| m.2)
-        .fold(f64::INFINITY, f64::min)
-        .min(1e6);
-    let highest = marks
-        .iter()
-        .map(|m| m.3)
-        .fold(0.0, f64::max)
-        .max(2.0 * lowest);
+    // The model does not move the times: the first of each way of timing stands for all.
+    let mut timings: Vec<&str> = Vec::new();
+    let times = evaluation.rows.iter().filter(|row| {
+        let new = !timings.contains(&row.timing.as_str());
+        timings.push(&row.timing);
+        new
+    });
+    let times = times.filter_map(|row| {
+        let (median, upper) = (row.timing_error_median_s?, row.timing_error_p95_s?);
+        mark(row, row.timing.clone(), 1e6 * median, 1e6 * upper)
+    });
+    let restitutions = evaluation.rows.iter().filter_map(|row| {
+        let (median, upper) = (row.restitution_error_median?, row.restitution_error_p90?);
+        mark(row, format!("{}, {}", row.timing, row.model), median, upper)
+    });
     let limit = evaluation.limit_audio_s_per_s.unwrap_or(UNMEASURED_LIMIT);
-    let slowest = marks.iter().map(|m| m.1).fold(limit, f64::min);
-    let fastest = marks.iter().map(|m| m.1).fold(limit, f64::max);
+    let title = format!("Error against speed, {} recordings", evaluation.files);
+    let panels = vec![
+        panel(
+            "timing error (µs)",
+            "95th percentile",
+            times.collect(),
+            limit,
+        ),
+        panel(
+            "error of e",
+            "90th percentile",
+            restitutions.collect(),
+            limit,
+        ),
+    ];
+    Figure::new(title, panels)
+}
+
+/// None of what has no place on logarithmic axes.
+fn mark(row: &Row, name: String, median: f64, upper: f64) -> Option<Mark> {
+    let speed = row.audio_s_per_s?;
+    (median > 0.0 && upper > 0.0 && speed > 0.0).then_some(Mark {
+        name,
+        speed,
+        median,
+        upper,
+    })
+}
+
+fn panel(error: &str, upper: &str, mut marks: Vec<Mark>, limit: f64) -> Panel {
+    marks.sort_by(|a, b| a.median.total_cmp(&b.median));
+    let lowest = marks.first().map_or(1.0, |m| m.median);
+    let highest = marks.iter().map(|m| m.upper).fold(2.0 * lowest, f64::max);
+    let slowest = marks.iter().map(|m| m.speed).fold(limit, f64::min);
+    let fastest = marks.iter().map(|m| m.speed).fold(limit, f64::max);
     // The legend stands below the lowest mark.
     let errors = (lowest / ROOM.powi(3), highest * ROOM);
-    let mut panel = Panel::new(
-        Axis::logarithmic(
-            "speed (seconds of audio per second of one core)",
-            slowest / ROOM,
-            fastest * ROOM,
-        ),
-        Axis::logarithmic("timing error (µs)", errors.0, errors.1),
-    )
-    .legend_at(Corner::LowerLeft)
-    .with(Layer::Curve(
-        Curve::new(vec![(limit, errors.0), (limit, errors.1)], Colour::BLACK)
-            .stroke(Stroke::Dashed)
-            .named("limit: reading the files and summing squares"),
-    ));
     let dots = |hollow: bool, name: &str, points: Vec<(f64, f64)>| {
         Layer::Dots(Dots {
             points,
@@ -64,33 +85,40 @@ pub fn figure(evaluation: &Evaluation) -> Figure {
             name: Some(name.to_owned()),
         })
     };
-    panel = panel
-        .with(dots(
-            false,
-            "median",
-            marks.iter().map(|m| (m.1, m.2)).collect(),
-        ))
-        .with(dots(
-            true,
-            "95th percentile",
-            marks.iter().map(|m| (m.1, m.3)).collect(),
-        ));
-    for (row, speed, median, _) in &marks {
-        let text = format!("{}, {}", row.timing, row.model);
+    let speed = "speed (seconds of audio per second of one core)";
+    let mut panel = Panel::new(
+        Axis::logarithmic(speed, slowest / ROOM, fastest * ROOM),
+        Axis::logarithmic(error, errors.0, errors.1),
+    )
+    .legend_at(Corner::LowerLeft)
+    .with(Layer::Curve(
+        Curve::new(vec![(limit, errors.0), (limit, errors.1)], Colour::BLACK)
+            .stroke(Stroke::Dashed)
+            .named("limit: reading the files and summing squares"),
+    ))
+    .with(dots(
+        false,
+        "median",
+        marks.iter().map(|m| (m.speed, m.median)).collect(),
+    ))
+    .with(dots(
+        true,
+        upper,
+        marks.iter().map(|m| (m.speed, m.upper)).collect(),
+    ));
+    // All names stand in one column, in the order of the marks.
+    let beside = marks.iter().map(|m| m.speed).fold(0.0, f64::max);
+    let mut last = 0.0;
+    for mark in marks {
+        last = mark.median.max(NAMES_APART * last);
         panel = panel.with(Layer::Note(Note {
-            at: (*speed, *median),
+            at: (beside, last),
             side: Side::Right,
-            text,
+            text: mark.name,
             colour: Colour::BLUE,
         }));
     }
-    Figure::new(
-        format!(
-            "Timing error against speed, {} recordings",
-            evaluation.files
-        ),
-        vec![panel],
-    )
+    panel
 }
 
 #[cfg(test)]
@@ -100,8 +128,25 @@ mod tests {
 
     #[test]
     fn every_way_that_found_something_has_its_name_in_the_picture() {
-        let evaluation = Evaluation::of(&[], Some(1e4));
-        let svg = to_svg(&figure(&evaluation)).unwrap();
+        let empty = Evaluation::of(&[], Some(1e4));
+        let svg = to_svg(&figure(&empty)).unwrap();
         assert!(svg.contains("limit: reading the files") && !svg.contains("correlation"));
+        let row = |model: &str, found: bool| Row {
+            timing: "correlation".to_owned(),
+            model: model.to_owned(),
+            timing_error_median_s: found.then_some(1e-6),
+            timing_error_p95_s: found.then_some(1e-4),
+            restitution_error_median: found.then_some(1e-3),
+            restitution_error_p90: found.then_some(1e-2),
+            audio_s_per_s: Some(200.0),
+            ..Row::default()
+        };
+        let full = Evaluation {
+            rows: vec![row("auto", true), row("drag", true), row("speed", false)],
+            ..empty
+        };
+        let svg = to_svg(&figure(&full)).unwrap();
+        assert!(svg.contains("correlation, auto") && svg.contains("correlation, drag"));
+        assert!(!svg.contains("correlation, speed"));
     }
 }

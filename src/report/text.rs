@@ -2,8 +2,9 @@
 
 use std::fmt::Write;
 
-use super::{Drop, Impact, Rejected, Report, Warning};
+use super::{Ball, Drop, Impact, Rejected, Report, Warning};
 use crate::fit::Estimate;
+use crate::fit::model::Budget;
 
 /// Lines that answer first (e, n, total time), then a table of impacts, then what was rejected, then warnings.
 #[must_use]
@@ -46,6 +47,9 @@ fn answer(out: &mut String, drop: &Drop) {
         Some(r) => line(out, &format!("  e        {}", with_error(&r.estimate))),
         None => line(out, "  e        not determined"),
     }
+    if let Some(model) = model(drop) {
+        line(out, &format!("  model    {model}"));
+    }
     line(out, &format!("  bounces  {}", drop.bounces));
     let observed = format!(
         "{:.4} s from the first impact to the last",
@@ -57,6 +61,12 @@ fn answer(out: &mut String, drop: &Drop) {
             &format!("  T_total  {total:.4} s from release to rest ({observed})"),
         ),
         None => line(out, &format!("  time     {observed}")),
+    }
+    if let Some(ball) = &drop.ball {
+        line(out, &format!("  ball     {}", ball_line(ball)));
+    }
+    if let Some(budget) = &drop.budget {
+        line(out, &format!("  error    {}", causes(budget)));
     }
     let estimates = &drop.estimates;
     let others = [
@@ -70,6 +80,65 @@ fn answer(out: &mut String, drop: &Drop) {
         let value = estimate.map_or_else(|| "-".to_owned(), |e| with_error(&e));
         line(out, &format!("    {name}  {value}"));
     }
+}
+
+/// The model beyond constant e, with what it fitted: `contact+drag: contact 0.78 ± 0.12 ms, drag K 1.26 ± 0.07 s⁻²`.
+fn model(drop: &Drop) -> Option<String> {
+    let of = |name: &str, scale: f64| {
+        let entry = drop.model.parameters.get(name)?;
+        let number = |key: &str| Some(scale * entry.get(key)?.as_f64()?);
+        Some((number("value")?, number("std_error")))
+    };
+    let shown = |name: &str, label: &str, unit: &str, scale: f64| {
+        let (value, std) = of(name, scale)?;
+        let digits = digits_for(std.unwrap_or(value));
+        let error = std.map_or_else(String::new, |s| format!(" ± {s:.digits$}"));
+        Some(format!("{label} {value:.digits$}{error}{unit}"))
+    };
+    let terms: Vec<String> = [
+        shown("contact_time_s", "contact", " ms", 1e3),
+        shown("drag_per_s2", "drag K", " s⁻²", 1.0),
+        shown("speed_exponent", "speed exponent", "", 1.0),
+    ]
+    .into_iter()
+    .flatten()
+    .collect();
+    (!terms.is_empty()).then(|| format!("{}: {}", drop.model.selected, terms.join(", ")))
+}
+
+fn ball_line(ball: &Ball) -> String {
+    let with = |label: &str, value: f64, std: f64, unit: &str| {
+        let digits = digits_for(std);
+        format!("{label} {value:.digits$} ± {std:.digits$}{unit}")
+    };
+    let mut parts = vec![with(
+        "ω_n",
+        ball.natural_frequency_rad_per_s,
+        ball.natural_frequency_std_rad_per_s,
+        " rad/s",
+    )];
+    parts.push(with("ζ", ball.damping_ratio, ball.damping_ratio_std, ""));
+    let k = ball.stiffness_n_per_m.zip(ball.stiffness_std_n_per_m);
+    let c = ball.damping_n_s_per_m.zip(ball.damping_std_n_s_per_m);
+    parts.extend(k.map(|(k, std)| with("k", 1e-3 * k, 1e-3 * std, " N/mm")));
+    parts.extend(c.map(|(c, std)| with("c", c, std, " N·s/m")));
+    parts.join(", ")
+}
+
+/// Where the error of e comes from, the greatest share first; what is below a hundredth is not named.
+fn causes(budget: &Budget) -> String {
+    let mut causes = [
+        ("scatter of the bounces", budget.bounce),
+        ("errors of the times", budget.timing),
+        ("contact, drag and speed", budget.inputs),
+        ("few bounces to judge the scatter by", budget.noise_sizes),
+    ];
+    causes.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let named = causes.iter().filter(|(_, share)| *share >= 0.01);
+    let parts: Vec<String> = named
+        .map(|(name, share)| format!("{:.0} % {name}", 100.0 * share))
+        .collect();
+    parts.join(", ")
 }
 
 /// `0.9452 ± 0.0006 (95 %: 0.9440 to 0.9464)`, to the digits that the error leaves.
