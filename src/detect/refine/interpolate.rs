@@ -29,6 +29,27 @@ pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
     out
 }
 
+/// Derivative of a band-limited sequence at its samples, per sample; zero outside.
+///
+/// # Formula
+/// `y'(i) = Σ_n (−1)^(n+1)/n·(1 − (n/K)²)²·(y(i + n) − y(i − n))`: the derivative of the interpolating kernel.
+#[must_use]
+pub fn slope(values: &[f64]) -> Vec<f64> {
+    let mut slopes = vec![0.0; values.len()];
+    for n in 1..KERNEL.min(values.len()) {
+        let share = 1.0 - (real(n) / real(KERNEL)).powi(2);
+        let sign = if n.is_multiple_of(2) { -1.0 } else { 1.0 };
+        let weight = sign * share * share / real(n);
+        for (y, later) in slopes.iter_mut().zip(&values[n..]) {
+            *y += weight * later;
+        }
+        for (y, earlier) in slopes[n..].iter_mut().zip(values) {
+            *y -= weight * earlier;
+        }
+    }
+    slopes
+}
+
 /// Maximum near index `top` of a band-limited sequence: bisection of the interval by thirds (golden section).
 #[must_use]
 pub fn maximum(values: &[f64], top: usize) -> (f64, f64) {
@@ -101,6 +122,10 @@ mod tests {
                 (interpolated(&samples, position) - wave(position)).abs() < 2e-3,
                 "{position}"
             );
+        }
+        for (i, slope) in slope(&samples).iter().enumerate().take(70).skip(30) {
+            let exact = 0.4 * (0.4 * real(i)).cos() - 0.33 * (1.1 * real(i)).sin();
+            assert!((slope - exact).abs() < 2e-3, "slope {i}");
         }
         assert!((interpolated(&samples, 30.0) - samples[30]).abs() < 1e-12);
         assert!(

@@ -1,14 +1,12 @@
 //! Times below one sample.
 //!
 //! The recording is first [whitened](mod@whiten), so that hum and rumble do not matter and the noise left is white. Then
-//! each impact is timed by a [constant fraction](mod@fraction) of its own rise, which does not walk with loudness, and by
-//! [correlation](mod@correlation) with the mean of the others, which uses all of its sound. Where the sound of one
-//! reaches into the next, all of them are matched together.
+//! each impact is timed by a [constant fraction](mod@fraction) of its own rise, which does not walk with loudness, or all
+//! are timed [together](mod@joint) by the sound that they have in common, which uses all of it.
 
-pub mod correlation;
 pub mod fraction;
 pub mod interpolate;
-mod overlap;
+mod joint;
 pub mod whiten;
 
 use crate::units::{real, samples_in};
@@ -99,24 +97,8 @@ pub fn refine(
         });
     let mut timed: Vec<Timed> = by_fraction.collect();
     if timing == Timing::Correlation {
-        let known: Vec<(usize, &Window, f64)> = windows
-            .iter()
-            .zip(&rises)
-            .enumerate()
-            .filter_map(|(i, (w, rise))| Some((i, w.as_ref()?, rise.as_ref()?.position)))
-            .collect();
-        let pairs: Vec<(&Window, f64)> = known.iter().map(|&(_, w, p)| (w, p)).collect();
-        for (&(i, w, _), matched) in known.iter().zip(correlation::align(&pairs, sample_rate_hz)) {
-            if let Some(m) = matched {
-                timed[i] = Timed {
-                    time_s: in_recording(w, m.position),
-                    std_s: m.std / sample_rate_hz,
-                };
-            }
-        }
-        let onsets: Vec<f64> = timed.iter().map(|t| t.time_s).collect();
-        let apart = overlap::times(samples, sample_rate_hz, &onsets, &whitener);
-        for (time, better) in timed.iter_mut().zip(apart.into_iter().flatten()) {
+        let together = joint::times(samples, sample_rate_hz, coarse_s, &whitener);
+        for (time, better) in timed.iter_mut().zip(together.into_iter().flatten()) {
             *time = better.unwrap_or(*time);
         }
     }

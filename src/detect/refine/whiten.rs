@@ -50,6 +50,12 @@ impl Whitener {
         }
     }
 
+    /// Samples that have to come before the first one that is whitened.
+    #[must_use]
+    pub const fn past(&self) -> usize {
+        ORDER
+    }
+
     /// Whitens `samples[start..end]`; none if the recording does not reach that far, with the filter's own past.
     #[must_use]
     pub fn apply(&self, samples: &[f32], start: usize, end: usize) -> Option<Vec<f64>> {

@@ -1,0 +1,172 @@
+//! The first alignment: from the loudest impact along the drop, each impact matched with those next to it.
+
+use super::settle::{PRIOR_REACH, best};
+use super::template::{Template, smoothed};
+use super::{BEFORE_S, Impact, Joint, LONGEST_S};
+use crate::detect::refine::interpolate::{KERNEL, shifted};
+use crate::units::{real, samples_in};
+
+/// Impacts are first aligned by this much of their sound at most, in seconds.
+const FIRST_S: f64 = 12e-3;
+/// The template is at least this long, in seconds.
+const SHORTEST_S: f64 = 4e-3;
+/// Neighbours whose mean an impact is matched with.
+const NEIGHBOURS: usize = 3;
+/// An impact that speeds up this slowly is this share of a period off at most; the detector's times are no better than
+/// the least jitter, nor worse than the most, in seconds.
+const JITTER_PERIODS: f64 = 0.3;
+const JITTER_S: (f64, f64) = (0.5e-3, 1.5e-3);
+/// Share of a flight that an impact may be off: the next one is another impact.
+const FLIGHT_SHARE: f64 = 0.4;
+/// Energy is judged over this time either way, in seconds.
+const ENERGY_S: f64 = 4e-3;
+
+/// The impacts aligned, and the template that they give.
+pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint> {
+    let before = samples_in(BEFORE_S, rate);
+    let flights: Vec<f64> = coarse.windows(2).map(|w| w[1] - w[0]).collect();
+    let longest = longest(&flights, rate, before);
+    let first = longest.min(samples_in(FIRST_S, rate));
+    let cut = |position: f64, length: usize| {
+        shifted(&sound, position - real(before), before + length)
+    };
+    let alone = |i: usize| flights.get(i).is_none_or(|&f| f > real(first));
+    let energy = |i: usize| cut(coarse[i], first).iter().map(|x| x * x).sum::<f64>();
+    let loudest = (0..coarse.len())
+        .filter(|&i| alone(i))
+        .max_by(|&a, &b| energy(a).total_cmp(&energy(b)))?;
+    let jitter = jitter(&cut(coarse[loudest], first), rate);
+    let mut impacts: Vec<Impact> = (0..coarse.len())
+        .map(|i| Impact {
+            position: coarse[i],
+            amplitude: 1.0,
+            coarse: coarse[i],
+            reach: reach(&flights, i, jitter),
+            slowness: 0.0,
+            std: 0.0,
+            doubt: 0.0,
+        })
+        .collect();
+    let mut aligned = vec![loudest];
+    for i in (loudest + 1..coarse.len()).chain((0..loudest).rev()) {
+        let near = nearest(&aligned, i);
+        let shape = mean(&impacts, &near, |p| cut(p, first));
+        let head = Template::new(shape, before);
+        if let Some((position, amplitude)) = matched(&sound, &impacts[i], &head, jitter) {
+            impacts[i].position = position;
+            impacts[i].amplitude = amplitude;
+            aligned.push(i);
+        } else {
+            impacts[i].amplitude = FAINT;
+        }
+    }
+    let template = long_template(&impacts, &flights, (longest, first), before, rate, cut)?;
+    Some(Joint {
+        knocks: vec![0.0; sound.len()],
+        sound,
+        rate,
+        jitter,
+        impacts,
+        template,
+    })
+}
+
+/// An impact that matches nothing is taken to be this loud until it does.
+const FAINT: f64 = 1e-3;
+
+/// Samples after the onset that three impacts at least sound alone.
+fn longest(flights: &[f64], rate: f64, before: usize) -> usize {
+    let mut sorted = flights.to_vec();
+    sorted.sort_by(|a, b| b.total_cmp(a));
+    let third = sorted.get(2).or(sorted.last()).copied().unwrap_or(0.0);
+    let alone = samples_in(0.9 * third - real(before), 1.0);
+    alone.clamp(samples_in(SHORTEST_S, rate), samples_in(LONGEST_S, rate))
+}
+
+/// How exactly the detector can tell when such a sound begins, in samples.
+fn jitter(sound: &[f64], rate: f64) -> f64 {
+    let energy: f64 = sound.iter().map(|x| x * x).sum();
+    let change: f64 = sound.windows(2).map(|w| (w[1] - w[0]).powi(2)).sum();
+    let period = std::f64::consts::TAU * (energy / change.max(f64::MIN_POSITIVE)).sqrt();
+    (JITTER_PERIODS * period).clamp(JITTER_S.0 * rate, JITTER_S.1 * rate)
+}
+
+/// How far from its coarse time an impact is sought, in samples.
+fn reach(flights: &[f64], i: usize, jitter: f64) -> usize {
+    let before = i.checked_sub(1).and_then(|i| flights.get(i));
+    let near = before.into_iter().chain(flights.get(i));
+    let shortest = near.copied().fold(f64::INFINITY, f64::min);
+    samples_in((PRIOR_REACH * jitter).min(FLIGHT_SHARE * shortest), 1.0).max(2)
+}
+
+/// The aligned impacts next to one.
+fn nearest(aligned: &[usize], i: usize) -> Vec<usize> {
+    let mut near = aligned.to_vec();
+    near.sort_by_key(|&j| j.abs_diff(i));
+    near.truncate(NEIGHBOURS);
+    near
+}
+
+/// Mean sound of some impacts for an amplitude of 1, each by its size.
+fn mean(impacts: &[Impact], of: &[usize], cut: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
+    let mut sum: Vec<f64> = Vec::new();
+    let mut power = 0.0;
+    for &i in of {
+        let impact = &impacts[i];
+        let sound = cut(impact.position);
+        sum.resize(sound.len(), 0.0);
+        for (s, x) in sum.iter_mut().zip(sound) {
+            *s += impact.amplitude * x;
+        }
+        power += impact.amplitude * impact.amplitude;
+    }
+    sum.iter_mut().for_each(|s| *s /= power);
+    sum
+}
+
+/// Position and amplitude of an impact by the template's head.
+fn matched(sound: &[f64], impact: &Impact, template: &Template, jitter: f64) -> Option<(f64, f64)> {
+    let (head, reach) = (template.head, impact.reach + KERNEL);
+    let begin = impact.coarse.round() - real(template.before + reach);
+    let samples = shifted(sound, begin, head + 2 * reach);
+    let noise = vec![1.0; samples.len()];
+    let coarse = impact.coarse - begin - real(template.before);
+    let shape = &template.mean()[..head];
+    let fit = best(&samples, &noise, shape, (coarse, jitter), reach)?;
+    Some((
+        begin + fit.position + real(template.before),
+        fit.amplitude,
+    ))
+}
+
+/// The mean of the impacts that sound alone for long enough, as far as it stands out of the noise.
+fn long_template(
+    impacts: &[Impact],
+    flights: &[f64],
+    (longest, first): (usize, usize),
+    before: usize,
+    rate: f64,
+    cut: impl Fn(f64, usize) -> Vec<f64>,
+) -> Option<Template> {
+    let alone = |length: usize| -> Vec<usize> {
+        let is_alone = |&i: &usize| flights.get(i).is_none_or(|&f| f > real(length + before));
+        (0..impacts.len()).filter(is_alone).collect()
+    };
+    let mut length = longest;
+    let mut of = alone(length);
+    if of.len() < 2 {
+        length = first;
+        of = alone(length);
+    }
+    let mut shape = mean(impacts, &of, |p| cut(p, length));
+    let power: f64 = of.iter().map(|&i| impacts[i].amplitude.powi(2)).sum();
+    let reach = samples_in(ENERGY_S, rate);
+    let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
+    // A mean of squares of noise scatters by √(2/n); four times that above 1 is a sound.
+    let loud = 1.0 + 4.0 * (1.0 / real(reach)).sqrt();
+    let last = smoothed(&squares, reach)
+        .iter()
+        .rposition(|e| e * power > loud)?;
+    shape.truncate((last + reach).max(before + samples_in(SHORTEST_S, rate)));
+    Some(Template::new(shape, before))
+}

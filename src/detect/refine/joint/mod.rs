@@ -1,0 +1,121 @@
+//! All impacts of a drop timed together, by the sound that they have in common.
+//!
+//! # Model
+//! ```text
+//! x(t) = Σ_i a_i·s_i(t − τ_i) + noise,      s_i(t) = S₀(t) + u_i·S₁(t) + u_i²·S₂(t)
+//! ```
+//! x is the whitened recording; S₀ is what all impacts share, ring and echo included. Impacts are not quite alike: at
+//! each moment after its onset an impact of amplitude a differs from the [template] by a²·v(t) in variance, learnt from
+//! what is left over. That, and the same of all others that still sound, is added to the noise, so each sample counts
+//! by what it knows. Template and times are [settled](settle) in turn, impact after impact. [`align`] finds the start.
+//!
+//! Where slow impacts last longer than fast ones, a match is late for them by half of what the contact takes longer.
+//! The [beginning](drift) of the sound does not know yet how long the contact will last and gives that away; S₁, S₂
+//! with `u = (v/v₁)^(−1/5)` (Hertz) are used in that case alone.
+
+mod align;
+mod drift;
+mod settle;
+mod spread;
+mod template;
+
+use super::whiten::Whitener;
+use super::{Timed, fraction};
+use crate::units::{real, samples_in};
+use template::Template;
+
+/// Windows begin this long before the onset, in seconds.
+const BEFORE_S: f64 = 1e-3;
+/// The template is at most this long, in seconds: rings and rooms that last longer are noise.
+const LONGEST_S: f64 = 0.2;
+/// Fewest impacts that have something in common.
+const FEWEST: usize = 3;
+/// Rounds in which impacts may jump to a better match, and rounds in which they only settle.
+const SEARCHES: usize = 3;
+const ROUNDS: usize = 3;
+
+/// One impact.
+#[derive(Debug, Clone)]
+struct Impact {
+    /// Onset in samples of the stretch, up to what is common to all.
+    position: f64,
+    /// Size in units of the template.
+    amplitude: f64,
+    /// Where the detector saw it, in samples, and how far off that may be at most.
+    coarse: f64,
+    reach: usize,
+    /// `(v/v₁)^(−1/5)` less its mean: how much longer than usual its contact lasts.
+    slowness: f64,
+    /// Standard error of the position in samples by noise and misfit, as if samples were independent.
+    std: f64,
+    /// Standard error by other places that match nearly as well.
+    doubt: f64,
+}
+
+/// The impacts of a drop in the whitened sound around them.
+#[derive(Debug)]
+struct Joint {
+    sound: Vec<f64>,
+    rate: f64,
+    /// Standard deviation of the detector's times, in samples.
+    jitter: f64,
+    impacts: Vec<Impact>,
+    template: Template,
+    /// Power of what nothing explains, where it stands out: knocks, voices, a hand.
+    knocks: Vec<f64>,
+}
+
+/// Times of the impacts from coarse times in ascending order; none for an impact that does not resemble the others, or
+/// for all if there are fewer than three.
+pub(super) fn times(
+    samples: &[f32],
+    rate: f64,
+    coarse_s: &[f64],
+    whitener: &Whitener,
+) -> Option<Vec<Option<Timed>>> {
+    if coarse_s.len() < FEWEST {
+        return None;
+    }
+    let (start, sound) = stretch(samples, rate, coarse_s, whitener)?;
+    let coarse: Vec<f64> = coarse_s.iter().map(|t| t * rate - real(start)).collect();
+    let mut joint = align::start(sound, rate, &coarse)?;
+    let late = drift::follow(&mut joint);
+    let onset = joint.onset();
+    let in_recording = |position: f64| (real(start) + position + onset) / rate;
+    let stds = spread::standard_errors(&joint);
+    let timed = joint.impacts.iter().zip(stds).map(|(impact, std)| {
+        let late_std = late.std * impact.slowness;
+        let std = std?.hypot(late_std).hypot(impact.doubt);
+        Some(Timed {
+            time_s: in_recording(impact.position + late.shift * impact.slowness),
+            std_s: std / rate,
+        })
+    });
+    Some(timed.collect())
+}
+
+/// The whitened sound from before the first impact to after the last, and the sample that it begins at.
+fn stretch(
+    samples: &[f32],
+    rate: f64,
+    coarse_s: &[f64],
+    whitener: &Whitener,
+) -> Option<(usize, Vec<f64>)> {
+    let (first_s, last_s) = (coarse_s.first()?, coarse_s.last()?);
+    let start = samples_in(first_s - 0.05, rate).max(whitener.past());
+    let end = samples_in(last_s + LONGEST_S, rate).min(samples.len());
+    Some((start, whitener.apply(samples, start, end)?))
+}
+
+impl Joint {
+    /// Where the template's sound begins, in samples after its nominal onset: the constant fraction of its rise.
+    fn onset(&self) -> f64 {
+        let window = super::Window {
+            samples: self.template.mean().to_vec(),
+            start: 0,
+            coarse: self.template.before,
+        };
+        let rise = fraction::time(&window, self.rate);
+        rise.map_or(0.0, |r| r.position - real(self.template.before))
+    }
+}

@@ -1,0 +1,356 @@
+//! Times and template in turn.
+
+use super::template::{Sample, smoothed};
+use super::{Joint, ROUNDS, SEARCHES};
+use crate::detect::refine::interpolate::{KERNEL, maximum, shifted};
+use crate::detect::voice::dot;
+use crate::units::{real, samples_in};
+
+/// Smoothing of the misfit, either way, in seconds.
+const MISFIT_S: f64 = 0.1e-3;
+/// What nothing explains is judged over this time either way, in seconds, and stands out by this factor.
+const KNOCK_S: f64 = 1e-3;
+const KNOCK: f64 = 4.0;
+/// Farthest that a match moves in one step, in samples.
+const STEP: f64 = 1.0;
+/// A match of less than this share of the best is no rival.
+const RIVAL: f64 = 0.5;
+/// Variance of what was not recorded.
+const UNKNOWN: f64 = 1e30;
+/// The prior on a time reaches this many standard deviations.
+pub(super) const PRIOR_REACH: f64 = 4.0;
+
+/// A place where a shape fits.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Fit {
+    pub position: f64,
+    pub amplitude: f64,
+    /// Spread over all places that fit, each by its likelihood.
+    pub doubt: f64,
+}
+
+impl Joint {
+    /// Learns the template and settles the times, `searches` rounds with jumps.
+    pub(super) fn settle(&mut self, searches: usize, rounds: usize) {
+        self.learn_whole();
+        for round in 0..searches + rounds {
+            if round == searches {
+                self.learn_whole();
+            }
+            let mut heads = Vec::with_capacity(self.impacts.len());
+            for i in 0..self.impacts.len() {
+                if round < searches {
+                    self.search(i);
+                }
+                heads.push(self.step(i));
+            }
+            self.template.learn(&heads, samples_in(MISFIT_S, self.rate));
+        }
+    }
+
+    /// The usual number of rounds.
+    pub(super) fn settle_whole(&mut self) {
+        self.settle(SEARCHES, ROUNDS);
+        self.learn_whole();
+    }
+
+    /// Where the window of an impact begins, in samples of the stretch.
+    fn begin(&self, i: usize) -> f64 {
+        self.impacts[i].position - real(self.template.before)
+    }
+
+    /// Takes the sounds of all other impacts out of samples that begin at a position.
+    fn take_out_others(&self, i: usize, begin: f64, samples: &mut [f64]) {
+        for (j, other) in self.impacts.iter().enumerate() {
+            let offset = begin - self.begin(j);
+            let overlaps = offset < real(self.template.len() + KERNEL)
+                && offset + real(samples.len() + KERNEL) > 0.0;
+            if j != i && overlaps {
+                let sounding = shifted(self.template.shape(j), offset, samples.len());
+                for (x, s) in samples.iter_mut().zip(sounding) {
+                    *x -= other.amplitude * s;
+                }
+            }
+        }
+    }
+
+    /// The sound from so many samples before each impact on, the others taken out.
+    pub(super) fn surroundings(&self, before: usize, length: usize) -> Vec<Vec<f64>> {
+        let around = |i: usize| {
+            let begin = self.impacts[i].position - real(before);
+            let mut sound = shifted(&self.sound, begin, length);
+            self.take_out_others(i, begin, &mut sound);
+            sound
+        };
+        (0..self.impacts.len()).map(around).collect()
+    }
+
+    /// Variance at samples from a position on: noise, and the misfit of all impacts, or of all but one.
+    fn noise(&self, begin: f64, length: usize, without: Option<usize>) -> Vec<f64> {
+        let first = begin.round();
+        let mut noise: Vec<f64> = (0..length)
+            .map(|k| {
+                let at = first + real(k);
+                let inside = at >= 0.0 && at < real(self.sound.len());
+                if inside { 1.0 } else { UNKNOWN }
+            })
+            .collect();
+        for (j, other) in self.impacts.iter().enumerate() {
+            let offset = (begin - self.begin(j)).round();
+            let misfit = &self.template.misfit;
+            if Some(j) == without || offset >= real(misfit.len()) || offset + real(length) <= 0.0 {
+                continue;
+            }
+            let (skip, from) = (samples_in(-offset, 1.0), samples_in(offset, 1.0));
+            let square = other.amplitude * other.amplitude;
+            for (n, v) in noise[skip..].iter_mut().zip(&misfit[from..]) {
+                *n += square * v;
+            }
+        }
+        noise
+    }
+
+    /// Adds what nothing explains to the noise from a position on.
+    fn add_knocks(&self, begin: f64, noise: &mut [f64]) {
+        let (skip, from) = (
+            samples_in(-begin, 1.0).min(noise.len()),
+            samples_in(begin, 1.0).min(self.knocks.len()),
+        );
+        for (n, k) in noise[skip..].iter_mut().zip(&self.knocks[from..]) {
+            *n += k;
+        }
+    }
+
+    /// Puts an impact where it fits best within its reach, in what the others leave.
+    fn search(&mut self, i: usize) {
+        let impact = &self.impacts[i];
+        let (head, reach) = (self.template.head, impact.reach + KERNEL);
+        let begin = impact.coarse.round() - real(self.template.before + reach);
+        let mut samples = shifted(&self.sound, begin, head + 2 * reach);
+        self.take_out_others(i, begin, &mut samples);
+        let noise = self.noise(begin, samples.len(), Some(i));
+        let shape = &self.template.shape(i)[..head];
+        let coarse = impact.coarse - begin - real(self.template.before);
+        let found = best(&samples, &noise, shape, (coarse, self.jitter), reach);
+        if let Some(fit) = found {
+            let impact = &mut self.impacts[i];
+            impact.position = begin + fit.position + real(self.template.before);
+            impact.amplitude = fit.amplitude;
+            impact.doubt = fit.doubt;
+        }
+    }
+
+    /// One step towards the best amplitude and time of an impact, by weighted least squares; gives its sound as it then
+    /// stands.
+    ///
+    /// # Formula
+    /// `x = a·s − a·δ·ds/dt` with weights `1/noise`, solved for a and δ; σ_δ² is the entry of the inverse matrix.
+    fn step(&mut self, i: usize) -> Sample {
+        let head = self.template.head;
+        let begin = self.begin(i);
+        let mut wide = shifted(&self.sound, begin - real(KERNEL), head + 2 * KERNEL);
+        self.take_out_others(i, begin - real(KERNEL), &mut wide);
+        let mut noise = self.noise(begin, head, None);
+        self.add_knocks(begin, &mut noise);
+        let (shape, slopes) = (self.template.shape(i), self.template.slopes(i, head));
+        let normal = Normal::of(&wide[KERNEL..KERNEL + head], &noise, shape, &slopes);
+        let impact = &mut self.impacts[i];
+        let (amplitude, moved, std) = normal.solve(impact.amplitude);
+        impact.amplitude = amplitude.max(LEAST_AMPLITUDE * impact.amplitude);
+        impact.std = std;
+        let moved = moved.clamp(-STEP, STEP);
+        impact.position += moved;
+        Sample {
+            amplitude: impact.amplitude,
+            slowness: impact.slowness,
+            sound: shifted(&wide, real(KERNEL) + moved, head),
+            noise,
+        }
+    }
+
+    /// The sounds of all impacts, each over the whole template, the others taken out of it.
+    pub(super) fn samples(&self) -> Vec<Sample> {
+        let left = self.residue();
+        let length = self.template.len();
+        let sample = |i: usize| {
+            let impact = &self.impacts[i];
+            let begin = self.begin(i);
+            let mut sound = shifted(&left, begin, length);
+            for (x, s) in sound.iter_mut().zip(self.template.shape(i)) {
+                *x += impact.amplitude * s;
+            }
+            let mut noise = self.noise(begin, length, None);
+            self.add_knocks(begin, &mut noise);
+            Sample {
+                amplitude: impact.amplitude,
+                slowness: impact.slowness,
+                sound,
+                noise,
+            }
+        };
+        (0..self.impacts.len()).map(sample).collect()
+    }
+
+    /// Learns the whole template, and where nothing explains what is heard.
+    pub(super) fn learn_whole(&mut self) {
+        let samples = self.samples();
+        self.template
+            .learn(&samples, samples_in(MISFIT_S, self.rate));
+        let reach = samples_in(KNOCK_S, self.rate);
+        let left: Vec<f64> = self.residue().iter().map(|x| x * x).collect();
+        let known = smoothed(&self.noise(0.0, left.len(), None), reach);
+        self.knocks = smoothed(&left, reach);
+        for (knock, known) in self.knocks.iter_mut().zip(known) {
+            if *knock < KNOCK * known {
+                *knock = 0.0;
+            }
+        }
+    }
+
+    /// What all impacts together leave unexplained.
+    fn residue(&self) -> Vec<f64> {
+        let mut left = self.sound.clone();
+        for (i, impact) in self.impacts.iter().enumerate() {
+            let begin = self.begin(i);
+            let whole = begin.floor();
+            let sounding = shifted(
+                self.template.shape(i),
+                whole - begin,
+                self.template.len() + 1,
+            );
+            let (skip, from) = (
+                samples_in(-whole, 1.0).min(sounding.len()),
+                samples_in(whole, 1.0).min(left.len()),
+            );
+            for (x, s) in left[from..].iter_mut().zip(&sounding[skip..]) {
+                *x -= impact.amplitude * s;
+            }
+        }
+        left
+    }
+}
+
+/// An amplitude falls at most to this share in one step: it never vanishes or turns round.
+const LEAST_AMPLITUDE: f64 = 0.1;
+
+/// Sums of the weighted least squares for amplitude and time.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Normal {
+    shape_shape: f64,
+    shape_slope: f64,
+    slope_slope: f64,
+    shape_sound: f64,
+    slope_sound: f64,
+}
+
+impl Normal {
+    /// Sums over the samples of a sound.
+    pub(super) fn of(sound: &[f64], noise: &[f64], shape: &[f64], slopes: &[f64]) -> Self {
+        let mut sums = Self::default();
+        for (((x, n), s), d) in sound.iter().zip(noise).zip(shape).zip(slopes) {
+            let w = 1.0 / n;
+            sums.shape_shape += w * s * s;
+            sums.shape_slope += w * s * d;
+            sums.slope_slope += w * d * d;
+            sums.shape_sound += w * s * x;
+            sums.slope_sound += w * d * x;
+        }
+        sums
+    }
+
+    /// Amplitude, time after the present one and its standard error, in samples.
+    pub(super) fn solve(&self, amplitude: f64) -> (f64, f64, f64) {
+        let determinant = self.shape_shape * self.slope_slope - self.shape_slope.powi(2);
+        if determinant <= 0.0 || amplitude <= 0.0 {
+            return (amplitude, 0.0, f64::INFINITY);
+        }
+        let size = (self.slope_slope * self.shape_sound - self.shape_slope * self.slope_sound)
+            / determinant;
+        let lean = (self.shape_shape * self.slope_sound - self.shape_slope * self.shape_sound)
+            / determinant;
+        let std = (self.shape_shape / determinant).sqrt() / amplitude;
+        (size, -lean / amplitude, std)
+    }
+
+    /// An amplitude in standard deviations of the noise.
+    pub(super) fn clearness(&self, amplitude: f64) -> f64 {
+        amplitude * self.shape_shape.sqrt()
+    }
+
+    /// How strongly each sample of the sound pulls the time, in samples of time, for an amplitude.
+    pub(super) fn pull(&self, amplitude: f64, shape: f64, slope: f64, noise: f64) -> f64 {
+        let determinant = self.shape_shape * self.slope_slope - self.shape_slope.powi(2);
+        if determinant <= 0.0 {
+            return 0.0;
+        }
+        (self.shape_slope * shape - self.shape_shape * slope) / (noise * determinant * amplitude)
+    }
+}
+
+/// The best place for a shape among samples; `prior` is where it is expected to begin and how surely.
+///
+/// # Formula
+/// `L(p) = (Σ w·x·s(· − p))²/(2 Σ w·s²(· − p))/scale − (p − prior)²/2σ²`: what a shape of positive amplitude explains,
+/// where what it leaves has the variance `scale`, at least 1.
+pub(super) fn best(
+    samples: &[f64],
+    noise: &[f64],
+    shape: &[f64],
+    prior: (f64, f64),
+    reach: usize,
+) -> Option<Fit> {
+    let weighted: Vec<f64> = samples.iter().zip(noise).map(|(x, n)| x / n).collect();
+    let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
+    let weights: Vec<f64> = noise.iter().map(|n| 1.0 / n).collect();
+    let lags = samples.len() - shape.len() + 1;
+    let products: Vec<f64> = weighted
+        .windows(shape.len())
+        .map(|w| dot(w, shape))
+        .collect();
+    let flat = weights.iter().all(|w| (w - weights[0]).abs() < 1e-9);
+    let energies: Vec<f64> = if flat {
+        vec![weights[0] * squares.iter().sum::<f64>(); lags]
+    } else {
+        weights
+            .windows(shape.len())
+            .map(|w| dot(w, &squares))
+            .collect()
+    };
+    let explained = |k: usize| products[k].max(0.0).powi(2) / (2.0 * energies[k]);
+    let inside = KERNEL..lags.checked_sub(KERNEL)?.max(KERNEL + 1);
+    let top = inside
+        .clone()
+        .max_by(|&a, &b| explained(a).total_cmp(&explained(b)))?;
+    if products[top] <= 0.0 {
+        return None;
+    }
+    let all: f64 = samples[top..top + shape.len()]
+        .iter()
+        .zip(&weighted[top..])
+        .map(|(x, w)| x * w)
+        .sum();
+    let scale = ((all - 2.0 * explained(top)) / real(shape.len())).max(1.0);
+    let peaks: Vec<(f64, f64, f64)> = inside
+        .filter(|&k| {
+            explained(k) >= RIVAL * explained(top)
+                && products[k] >= products[k - 1]
+                && products[k] > products[k + 1]
+        })
+        .map(|k| {
+            let (position, height) = maximum(&products, k);
+            let likelihood = height * height / (2.0 * energies[k]) / scale
+                - 0.5 * ((position - prior.0) / prior.1).powi(2);
+            (position, height / energies[k], likelihood)
+        })
+        .filter(|(position, ..)| (position - prior.0).abs() <= real(reach))
+        .collect();
+    let &(position, amplitude, likelihood) = peaks.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let shares = peaks.iter().map(|p| ((p.2 - likelihood).exp(), p.0));
+    let total: f64 = shares.clone().map(|(share, _)| share).sum();
+    let spread = shares.map(|(share, p)| share * (p - position).powi(2));
+    Some(Fit {
+        position,
+        amplitude,
+        doubt: (spread.sum::<f64>() / total).sqrt(),
+    })
+}

@@ -1,0 +1,80 @@
+//! Standard errors that know that neighbouring samples err alike.
+
+use super::Joint;
+use super::settle::Normal;
+use super::template::{MOST_SHARE, Sample};
+use crate::units::real;
+
+/// Blocks of equal information that a sound is cut into; two parameters are fitted to them.
+const BLOCKS: usize = 8;
+const FITTED: usize = 2;
+/// Neighbours on each side whose ratio of errors is averaged: one impact alone says it within a third.
+const NEIGHBOURS: usize = 3;
+/// A match of fewer standard deviations is none.
+const FAINTEST: f64 = 3.0;
+
+/// Standard error of each position in samples; none where an impact does not resemble the template.
+///
+/// # Formula
+/// The time is moved by `Σ h(t)·r(t)`, h the pull of each sample and r what is left over. Where r lasts as long as a
+/// mode does, its samples do not err independently; the sums over blocks of equal information do, more nearly:
+/// ```text
+/// σ² = B/(B − 2)·Σ_blocks (Σ_t h(t)·r(t)/√(1 − share))²
+/// ```
+/// Its ratio to the variance of independent samples varies slowly along the drop and is averaged over neighbours.
+pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
+    let samples = joint.samples();
+    let length = joint.template.len();
+    let mut weights = vec![0.0; length];
+    for s in &samples {
+        for (w, n) in weights.iter_mut().zip(&s.noise) {
+            *w += s.amplitude * s.amplitude / n;
+        }
+    }
+    let mut judged: Vec<Option<(f64, f64)>> = Vec::with_capacity(samples.len());
+    for (i, sample) in samples.iter().enumerate() {
+        judged.push(errors(
+            sample,
+            joint.template.shape(i),
+            &joint.template.slopes(i, length),
+            &weights,
+        ));
+    }
+    let ratio = |i: usize| {
+        let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(judged.len());
+        let ratios = judged[near].iter().flatten().map(|(a, b)| (b / a).powi(2));
+        let (sum, count) = ratios.fold((0.0, 0), |(s, n), r| (s + r, n + 1));
+        (sum / real(count)).sqrt()
+    };
+    (0..judged.len())
+        .map(|i| judged[i].map(|(independent, _)| independent * ratio(i)))
+        .collect()
+}
+
+/// Standard error of one position by independent samples and by blocks.
+fn errors(
+    sample: &Sample,
+    shape: &[f64],
+    slopes: &[f64],
+    weights: &[f64],
+) -> Option<(f64, f64)> {
+    let normal = Normal::of(&sample.sound, &sample.noise, shape, slopes);
+    let (amplitude, _, independent) = normal.solve(sample.amplitude);
+    if !independent.is_finite() || normal.clearness(amplitude) < FAINTEST {
+        return None;
+    }
+    let information: f64 = slopes.iter().zip(&sample.noise).map(|(d, n)| d * d / n).sum();
+    let (mut sums, mut known) = ([0.0; BLOCKS], 0.0);
+    for t in 0..shape.len() {
+        let noise = sample.noise[t];
+        let share = (sample.amplitude.powi(2) / noise / weights[t]).min(MOST_SHARE);
+        let left = (sample.sound[t] - sample.amplitude * shape[t]) / (1.0 - share).sqrt();
+        let pull = normal.pull(sample.amplitude, shape[t], slopes[t], noise);
+        let block = crate::units::samples_in((known / information * real(BLOCKS)).floor(), 1.0);
+        sums[block.min(BLOCKS - 1)] += pull * left;
+        known += slopes[t].powi(2) / noise;
+    }
+    let squares: f64 = sums.iter().map(|s| s * s).sum();
+    let blocks = (squares * real(BLOCKS) / real(BLOCKS - FITTED)).sqrt();
+    Some((independent, blocks))
+}

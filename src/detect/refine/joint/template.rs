@@ -1,0 +1,262 @@
+//! What the impacts of a drop have in common, and how much they differ.
+
+use crate::detect::refine::interpolate::{KERNEL, slope};
+use crate::units::real;
+
+/// The head holds this share of all that the template knows of time.
+const HEAD_SHARE: f64 = 0.98;
+/// Share of a weight matrix's trace that is added to its diagonal: where two impacts are alike in speed their
+/// components cannot be told apart.
+const RIDGE: f64 = 1e-6;
+
+/// Sample k of each component belongs to `k − before` samples after the onset.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Template {
+    /// `S_c`, of one length.
+    pub components: Vec<Vec<f64>>,
+    /// Variance of the difference between an impact of amplitude 1 and its template.
+    pub misfit: Vec<f64>,
+    pub before: usize,
+    /// Samples that are matched: the rest tells little of time.
+    pub head: usize,
+    /// The sound of each impact, where impacts differ by their speed.
+    shapes: Vec<Vec<f64>>,
+}
+
+/// What is known of one impact's sound.
+#[derive(Debug)]
+pub(super) struct Sample {
+    pub amplitude: f64,
+    pub slowness: f64,
+    /// Its sound, all others taken out.
+    pub sound: Vec<f64>,
+    /// Variance of that, misfit included.
+    pub noise: Vec<f64>,
+}
+
+impl Template {
+    /// A template of one component; impacts are taken to be alike.
+    pub(super) fn new(mean: Vec<f64>, before: usize) -> Self {
+        let misfit = vec![0.0; mean.len()];
+        let mut template = Self {
+            components: vec![mean],
+            misfit,
+            before,
+            ..Self::default()
+        };
+        template.head = template.head_length();
+        template
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.misfit.len()
+    }
+
+    /// S₀.
+    pub(super) fn mean(&self) -> &[f64] {
+        &self.components[0]
+    }
+
+    /// The sound of impact `i` at amplitude 1.
+    pub(super) fn shape(&self, i: usize) -> &[f64] {
+        self.shapes.get(i).unwrap_or(&self.components[0])
+    }
+
+    /// The first `length` samples of that sound's derivative, per sample.
+    pub(super) fn slopes(&self, i: usize, length: usize) -> Vec<f64> {
+        let shape = self.shape(i);
+        let mut slopes = slope(&shape[..(length + KERNEL).min(shape.len())]);
+        slopes.truncate(length);
+        slopes
+    }
+
+    fn head_length(&self) -> usize {
+        let slopes = self.mean().windows(2).map(|w| (w[1] - w[0]).powi(2));
+        let total: f64 = slopes.clone().sum();
+        let mut sum = 0.0;
+        let held = slopes.into_iter().position(|s| {
+            sum += s;
+            sum >= HEAD_SHARE * total
+        });
+        held.map_or(self.len(), |k| k + 2)
+            .clamp((2 * self.before).min(self.len()), self.len())
+    }
+
+    /// Learns the first samples of all components anew, as many as the impacts' sounds have.
+    ///
+    /// # Formula
+    /// ```text
+    /// S(t) minimises Σ_i w_i(t)·(x_i(t)/a_i − Σ_c u_iᶜ·S_c(t))²,   w_i(t) = a_i²/noise_i(t)
+    /// ```
+    pub(super) fn learn(&mut self, impacts: &[Sample], smoothing: usize) {
+        let length = impacts.first().map_or(0, |s| s.sound.len());
+        let whole = length == self.len();
+        for t in 0..length {
+            let values = weighted_fit(impacts, t, self.components.len());
+            for (component, value) in self.components.iter_mut().zip(values) {
+                component[t] = value;
+            }
+        }
+        self.shapes = if self.components.len() > 1 {
+            impacts.iter().map(|s| self.sounding(s.slowness)).collect()
+        } else {
+            Vec::new()
+        };
+        let misfit = self.misfit_of(impacts, length);
+        self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
+        if whole {
+            self.head = self.head_length();
+        }
+    }
+
+    /// `Σ_c uᶜ·S_c`.
+    fn sounding(&self, slowness: f64) -> Vec<f64> {
+        let mut shape = vec![0.0; self.len()];
+        for component in self.components.iter().rev() {
+            for (s, c) in shape.iter_mut().zip(component) {
+                *s = *s * slowness + c;
+            }
+        }
+        shape
+    }
+
+    /// What the impacts leave over, above what is known to be noise, for an amplitude of 1.
+    ///
+    /// An impact that makes up the share h of its own template leaves 1 − h of its difference.
+    fn misfit_of(&self, impacts: &[Sample], length: usize) -> Vec<f64> {
+        let power: f64 = impacts.iter().map(|s| s.amplitude * s.amplitude).sum();
+        let mut misfit = vec![0.0; length];
+        let mut weights = vec![0.0; length];
+        for s in impacts {
+            for (w, n) in weights.iter_mut().zip(&s.noise) {
+                *w += s.amplitude * s.amplitude / n;
+            }
+        }
+        for (i, s) in impacts.iter().enumerate() {
+            let square = s.amplitude * s.amplitude;
+            let shape = self.shape(i);
+            for t in 0..length {
+                let share = (square / s.noise[t] / weights[t]).min(MOST_SHARE);
+                let left = s.sound[t] - s.amplitude * shape[t];
+                let others = s.noise[t] - square * self.misfit[t];
+                misfit[t] += left * left / (1.0 - share) - others;
+            }
+        }
+        for v in &mut misfit {
+            *v = (*v / power).max(0.0);
+        }
+        misfit
+    }
+}
+
+/// An impact that is nearly all of its own template says little of how impacts differ.
+pub(super) const MOST_SHARE: f64 = 0.9;
+
+/// The components at one sample: up to three normal equations.
+fn weighted_fit(impacts: &[Sample], t: usize, components: usize) -> Vec<f64> {
+    let (mut moments, mut right) = ([0.0; 5], [0.0; 3]);
+    for s in impacts {
+        let weight = s.amplitude * s.amplitude / s.noise[t];
+        let value = s.sound[t] / s.amplitude;
+        let mut power = weight;
+        for (k, moment) in moments.iter_mut().enumerate().take(2 * components - 1) {
+            *moment += power;
+            if k < components {
+                right[k] += power * value;
+            }
+            power *= s.slowness;
+        }
+    }
+    solve(&moments, &mut right, components);
+    right[..components].to_vec()
+}
+
+/// Solves `Σ_c moments[r + c]·y_c = right_r` in place, by elimination; the matrix is positive definite.
+fn solve(moments: &[f64; 5], right: &mut [f64; 3], size: usize) {
+    let ridge = RIDGE * moments[0];
+    let mut rows = [[0.0; 3]; 3];
+    for (r, row) in rows.iter_mut().enumerate() {
+        for (c, cell) in row.iter_mut().enumerate() {
+            *cell = moments[r + c] + if r == c && r > 0 { ridge } else { 0.0 };
+        }
+    }
+    for pivot in 0..size {
+        for r in pivot + 1..size {
+            let factor = rows[r][pivot] / rows[pivot][pivot];
+            for c in pivot..size {
+                rows[r][c] -= factor * rows[pivot][c];
+            }
+            right[r] -= factor * right[pivot];
+        }
+    }
+    for r in (0..size).rev() {
+        let known: f64 = (r + 1..size).map(|c| rows[r][c] * right[c]).sum();
+        right[r] = (right[r] - known) / rows[r][r];
+    }
+}
+
+/// Running mean over `2·reach + 1` values; the first and the last go on beyond the ends.
+pub(super) fn smoothed(values: &[f64], reach: usize) -> Vec<f64> {
+    let Some(last) = values.len().checked_sub(1) else {
+        return Vec::new();
+    };
+    let at = |k: usize| values[k.saturating_sub(reach).min(last)];
+    let mut sum: f64 = (0..=2 * reach).map(at).sum();
+    let scale = 1.0 / real(2 * reach + 1);
+    let mut out = Vec::with_capacity(values.len());
+    for k in 0..values.len() {
+        out.push((scale * sum).max(0.0));
+        sum += at(k + 2 * reach + 1) - at(k);
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::SplitMix64;
+
+    #[test]
+    fn components_and_misfit_are_those_that_the_sounds_were_made_of() {
+        let mut rng = SplitMix64::new(8);
+        let shapes = [|t: f64| (0.3 * t).sin(), |t: f64| 0.2 * (0.5 * t).cos()];
+        let impacts: Vec<Sample> = (0..400)
+            .map(|i| {
+                let (amplitude, slowness) = (50.0 + real(i % 7), 0.01 * real(i % 100) - 0.5);
+                let sound = (0..60).map(|t| {
+                    let shape = shapes[0](real(t)) + slowness * shapes[1](real(t));
+                    // Impacts differ by 2 % from sample 30 on.
+                    let differs = if t < 30 { 0.0 } else { 0.02 * rng.normal() };
+                    amplitude * (shape + differs) + rng.normal()
+                });
+                Sample {
+                    amplitude,
+                    slowness,
+                    sound: sound.collect(),
+                    noise: vec![1.0; 60],
+                }
+            })
+            .collect();
+        let mut template = Template::new(vec![0.0; 60], 10);
+        template.components.push(vec![0.0; 60]);
+        template.learn(&impacts, 2);
+        for t in 0..60 {
+            for (component, shape) in template.components.iter().zip(shapes) {
+                let off = component[t] - shape(real(t));
+                assert!(off.abs() < 0.02, "sample {t}: off by {off}");
+            }
+        }
+        assert!(template.misfit[..25].iter().all(|&v| v < 1e-4));
+        let late = template.misfit[35..].iter().sum::<f64>() / 25.0;
+        assert!((late / 4e-4 - 1.0).abs() < 0.15, "{late}");
+    }
+
+    #[test]
+    fn a_running_mean_is_that_of_the_definition() {
+        let values: Vec<f64> = (0..40).map(|i| real(i * i % 17)).collect();
+        for (k, mean) in smoothed(&values, 3).iter().enumerate() {
+            let near = (0..7).map(|j| values[(k + j).saturating_sub(3).min(39)]);
+            assert!((mean - near.sum::<f64>() / 7.0).abs() < 1e-12, "value {k}");
+        }
+    }
+}
