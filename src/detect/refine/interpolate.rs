@@ -12,21 +12,51 @@ pub fn interpolated(values: &[f64], position: f64) -> f64 {
     weighted(values, first, &kernel)
 }
 
-/// `length` samples from a position between samples on.
+/// `length` samples from a position between samples on; zero where there are none.
 #[must_use]
 pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
     let (first, kernel) = kernel(position);
+    let taps = kernel.len();
+    let needed = length + taps - 1;
+    let inside = usize::try_from(first)
+        .ok()
+        .and_then(|from| samples.get(from..from.checked_add(needed)?));
     let mut out = vec![0.0; length];
-    // Tap by tap over all samples: sums of neighbours then run side by side in the machine's vectors.
-    for (tap, weight) in kernel.iter().enumerate() {
-        let start = first.saturating_add_unsigned(tap);
-        let skip = usize::try_from(-start).unwrap_or(0).min(length);
-        let from = usize::try_from(start).unwrap_or(0).min(samples.len());
-        for (y, x) in out[skip..].iter_mut().zip(&samples[from..]) {
-            *y += weight * x;
+    if let Some(inside) = inside {
+        convolve(inside, &kernel, &mut out);
+    } else {
+        // At the ends of the samples there are zeros.
+        let skip = usize::try_from(-first).unwrap_or(0).min(needed);
+        let from = usize::try_from(first).unwrap_or(0).min(samples.len());
+        let mut padded = vec![0.0; needed];
+        for (y, x) in padded[skip..].iter_mut().zip(&samples[from..]) {
+            *y = *x;
         }
+        convolve(&padded, &kernel, &mut out);
     }
     out
+}
+
+/// Outputs that are computed side by side, in the machine's vectors.
+const BLOCK: usize = 8;
+
+/// `out[i] = Σ_k kernel[k]·samples[i + k]`.
+fn convolve(samples: &[f64], kernel: &[f64; 2 * KERNEL], out: &mut [f64]) {
+    let (blocks, rest) = out.as_chunks_mut::<BLOCK>();
+    let done = blocks.len() * BLOCK;
+    for (b, block) in blocks.iter_mut().enumerate() {
+        let samples = &samples[b * BLOCK..b * BLOCK + BLOCK + kernel.len() - 1];
+        let mut sums = [0.0; BLOCK];
+        for (k, weight) in kernel.iter().enumerate() {
+            for (sum, x) in sums.iter_mut().zip(&samples[k..k + BLOCK]) {
+                *sum += weight * x;
+            }
+        }
+        *block = sums;
+    }
+    for (y, window) in rest.iter_mut().zip(samples[done..].windows(kernel.len())) {
+        *y = window.iter().zip(kernel).map(|(x, k)| x * k).sum();
+    }
 }
 
 /// Derivative of a band-limited sequence at its samples, per sample; zero outside.

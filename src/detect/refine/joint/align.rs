@@ -27,9 +27,8 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
     let flights: Vec<f64> = coarse.windows(2).map(|w| w[1] - w[0]).collect();
     let longest = longest(&flights, rate, before);
     let first = longest.min(samples_in(FIRST_S, rate));
-    let cut = |position: f64, length: usize| {
-        shifted(&sound, position - real(before), before + length)
-    };
+    let cut =
+        |position: f64, length: usize| shifted(&sound, position - real(before), before + length);
     let alone = |i: usize| flights.get(i).is_none_or(|&f| f > real(first));
     let energy = |i: usize| cut(coarse[i], first).iter().map(|x| x * x).sum::<f64>();
     let loudest = (0..coarse.len())
@@ -43,8 +42,8 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
             coarse: coarse[i],
             reach: reach(&flights, i, jitter),
             slowness: 0.0,
-            std: 0.0,
             doubt: 0.0,
+            knocks: Vec::new(),
         })
         .collect();
     let mut aligned = vec![loudest];
@@ -62,7 +61,6 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
     }
     let template = long_template(&impacts, &flights, (longest, first), before, rate, cut)?;
     Some(Joint {
-        knocks: vec![0.0; sound.len()],
         sound,
         rate,
         jitter,
@@ -133,10 +131,7 @@ fn matched(sound: &[f64], impact: &Impact, template: &Template, jitter: f64) -> 
     let coarse = impact.coarse - begin - real(template.before);
     let shape = &template.mean()[..head];
     let fit = best(&samples, &noise, shape, (coarse, jitter), reach)?;
-    Some((
-        begin + fit.position + real(template.before),
-        fit.amplitude,
-    ))
+    Some((begin + fit.position + real(template.before), fit.amplitude))
 }
 
 /// The mean of the impacts that sound alone for long enough, as far as it stands out of the noise.
@@ -159,14 +154,27 @@ fn long_template(
         of = alone(length);
     }
     let mut shape = mean(impacts, &of, |p| cut(p, length));
-    let power: f64 = of.iter().map(|&i| impacts[i].amplitude.powi(2)).sum();
     let reach = samples_in(ENERGY_S, rate);
     let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
-    // A mean of squares of noise scatters by √(2/n); four times that above 1 is a sound.
+    let power: f64 = of.iter().map(|&i| impacts[i].amplitude.powi(2)).sum();
+    let mut left = vec![0.0; shape.len()];
+    for &i in &of {
+        let amplitude = impacts[i].amplitude;
+        for (l, (x, s)) in left
+            .iter_mut()
+            .zip(cut(impacts[i].position, length).iter().zip(&shape))
+        {
+            *l += (x - amplitude * s).powi(2) / real(of.len() - 1);
+        }
+    }
+    // Were it noise, the mean's power would be what single impacts leave, over all their power. A mean of n squares
+    // scatters by √(2/n); four times that is a sound.
     let loud = 1.0 + 4.0 * (1.0 / real(reach)).sqrt();
+    let noise = smoothed(&left, reach);
     let last = smoothed(&squares, reach)
         .iter()
-        .rposition(|e| e * power > loud)?;
+        .zip(noise)
+        .rposition(|(e, n)| e * power > loud * n)?;
     shape.truncate((last + reach).max(before + samples_in(SHORTEST_S, rate)));
     Some(Template::new(shape, before))
 }

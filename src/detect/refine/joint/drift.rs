@@ -21,7 +21,8 @@ const FEWEST: usize = 5;
 const FEWEST_LINEAR: usize = 8;
 const FEWEST_SQUARE: usize = 12;
 /// The beginning ends where the sound first reaches these shares of its greatest value. Both have to agree.
-const BEGINNINGS: (f64, f64) = (0.4, 0.8);
+const SHORTER: f64 = 0.4;
+const LONGER: f64 = 0.8;
 /// Standard errors by which a drift has to differ from none, and at most two beginnings from each other.
 const SIGNIFICANT: f64 = 4.0;
 const AGREEING: f64 = 3.0;
@@ -36,6 +37,10 @@ const ROUNDS: usize = 12;
 /// Rounds of robust averaging.
 const AVERAGINGS: usize = 10;
 
+/// Rounds of all times before a drift is looked for, and after one is seen.
+const FIRST_ROUNDS: usize = 3;
+const MORE_ROUNDS: usize = 5;
+
 /// Settles all times, with or without a drift, and gives what is to be added for it.
 pub(super) fn follow(joint: &mut Joint) -> Late {
     set_slowness(&mut joint.impacts);
@@ -43,10 +48,10 @@ pub(super) fn follow(joint: &mut Joint) -> Late {
         let alike = joint.template.clone();
         let start = joint.impacts.clone();
         joint.add_components();
-        joint.settle(0, 3);
+        joint.settle(0, FIRST_ROUNDS);
         if late(joint).is_some() {
-            joint.settle(2, 3);
-            joint.learn_whole();
+            // Jumps would be to where the wrong shape fits: impacts of all speeds have to teach it first.
+            joint.settle(0, MORE_ROUNDS);
             if let Some(late) = late(joint) {
                 return late;
             }
@@ -86,15 +91,17 @@ impl Joint {
 
 /// The drift, if it is one: slow impacts match late, and both beginnings say so.
 fn late(joint: &Joint) -> Option<Late> {
-    let early = drift(joint, BEGINNINGS.0)?;
-    let later = drift(joint, BEGINNINGS.1)?;
-    let agree = (early.shift - later.shift).abs() < AGREEING * early.std.hypot(later.std);
-    (agree && early.shift < -SIGNIFICANT * early.std).then_some(early)
+    let mut begins = Beginnings::of(joint, LONGER)?;
+    let longer = drift(joint, &begins.settled())?;
+    // From where the longer beginnings stand, the shorter ones cannot be missed.
+    begins.length = beginning(joint, SHORTER)?;
+    let shorter = drift(joint, &begins.settled())?;
+    let agree = (shorter.shift - longer.shift).abs() < AGREEING * shorter.std.hypot(longer.std);
+    (agree && shorter.shift < -SIGNIFICANT * shorter.std).then_some(shorter)
 }
 
 /// The slope of "begins" less "matches" over slowness, by least squares that forgive what lies far off.
-fn drift(joint: &Joint, share: f64) -> Option<Late> {
-    let begins = Beginnings::of(joint, share)?.settled();
+fn drift(joint: &Joint, begins: &[(f64, f64)]) -> Option<Late> {
     let values: Vec<(f64, f64, f64)> = begins
         .iter()
         .zip(&joint.impacts)
@@ -148,6 +155,22 @@ impl Line {
     }
 }
 
+/// Samples of a beginning before the onset.
+fn lead(joint: &Joint) -> usize {
+    samples_in(LEAD_S, joint.rate).min(joint.template.before)
+}
+
+/// Samples of a beginning that ends at a share of the greatest value.
+fn beginning(joint: &Joint, share: f64) -> Option<usize> {
+    let onset = joint.template.before;
+    let within = samples_in(PEAK_WITHIN_S, joint.rate);
+    let mean = joint.template.mean();
+    let near = mean.iter().take(onset + within);
+    let peak = near.fold(0.0, |m: f64, s| m.max(s.abs()));
+    let end = mean.iter().position(|s| s.abs() >= share * peak)? + 1;
+    (end + lead(joint)).checked_sub(onset).filter(|&l| l > 3)
+}
+
 /// The beginnings of all impacts, each matched with the mean of them.
 struct Beginnings {
     /// Each impact's sound, the others taken out, with a margin on both sides.
@@ -165,13 +188,8 @@ struct Beginnings {
 
 impl Beginnings {
     fn of(joint: &Joint, share: f64) -> Option<Self> {
-        let lead = samples_in(LEAD_S, joint.rate).min(joint.template.before);
-        let onset = joint.template.before;
-        let within = samples_in(PEAK_WITHIN_S, joint.rate);
-        let mean = joint.template.mean();
-        let peak = mean.iter().take(onset + within).fold(0.0, |m: f64, s| m.max(s.abs()));
-        let end = mean.iter().position(|s| s.abs() >= share * peak)? + 1;
-        let length = (end + lead).checked_sub(onset).filter(|&l| l > 3)?;
+        let lead = lead(joint);
+        let length = beginning(joint, share)?;
         let margin = samples_in(LEAD_S, joint.rate) + KERNEL;
         let first = real(lead + margin);
         let sounds = joint.surroundings(lead + margin, length + 2 * margin + KERNEL);
@@ -187,7 +205,7 @@ impl Beginnings {
     }
 
     /// Positions in the stretch and their standard errors, in samples.
-    fn settled(mut self) -> Vec<(f64, f64)> {
+    fn settled(&mut self) -> Vec<(f64, f64)> {
         let noise = vec![1.0; self.length];
         let mut stds = vec![f64::INFINITY; self.sounds.len()];
         for _ in 0..ROUNDS {
@@ -207,16 +225,20 @@ impl Beginnings {
                 stds[i] = std;
                 moves.push(moved.clamp(-1.0, 1.0));
             }
-            let (sum, weight) = moves.iter().zip(&stds).fold((0.0, 0.0), |(s, w), (m, std)| {
-                (s + m / (std * std), w + 1.0 / (std * std))
-            });
+            let (sum, weight) = moves
+                .iter()
+                .zip(&stds)
+                .fold((0.0, 0.0), |(s, w), (m, std)| {
+                    (s + m / (std * std), w + 1.0 / (std * std))
+                });
             // What is common to all is not measured by matching one another.
             let common = if weight > 0.0 { sum / weight } else { 0.0 };
             for (p, m) in self.positions.iter_mut().zip(&moves) {
                 *p += m - common;
             }
         }
-        let moved = self.positions.iter().map(|p| p - self.first);
+        let first = self.first;
+        let moved = self.positions.iter().map(|p| p - first);
         let places = self.origins.iter().zip(moved).map(|(o, m)| o + m);
         places.zip(stds).collect()
     }

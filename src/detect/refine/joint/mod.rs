@@ -46,10 +46,10 @@ struct Impact {
     reach: usize,
     /// `(v/v₁)^(−1/5)` less its mean: how much longer than usual its contact lasts.
     slowness: f64,
-    /// Standard error of the position in samples by noise and misfit, as if samples were independent.
-    std: f64,
     /// Standard error by other places that match nearly as well.
     doubt: f64,
+    /// Power of what nothing explains around it, where that stands out: knocks, voices, a hand.
+    knocks: Vec<f64>,
 }
 
 /// The impacts of a drop in the whitened sound around them.
@@ -61,8 +61,6 @@ struct Joint {
     jitter: f64,
     impacts: Vec<Impact>,
     template: Template,
-    /// Power of what nothing explains, where it stands out: knocks, voices, a hand.
-    knocks: Vec<f64>,
 }
 
 /// Times of the impacts from coarse times in ascending order; none for an impact that does not resemble the others, or

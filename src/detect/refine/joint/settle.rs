@@ -30,28 +30,78 @@ pub(super) struct Fit {
 }
 
 impl Joint {
-    /// Learns the template and settles the times, `searches` rounds with jumps.
+    /// Settles times and template in turn, `searches` rounds with jumps and as many more without as `rounds`.
     pub(super) fn settle(&mut self, searches: usize, rounds: usize) {
-        self.learn_whole();
         for round in 0..searches + rounds {
-            if round == searches {
+            if round == searches && searches > 0 {
                 self.learn_whole();
             }
-            let mut heads = Vec::with_capacity(self.impacts.len());
-            for i in 0..self.impacts.len() {
-                if round < searches {
-                    self.search(i);
-                }
-                heads.push(self.step(i));
+            let jump = round < searches;
+            let count = self.impacts.len();
+            let heads = (0..count)
+                .map(|i| self.settled(i, jump))
+                .collect::<Vec<_>>();
+            self.learn(&heads);
+            for (i, head) in heads.iter().enumerate() {
+                self.impacts[i].knocks = self.knocks(i, head);
             }
-            self.template.learn(&heads, samples_in(MISFIT_S, self.rate));
         }
     }
 
     /// The usual number of rounds.
     pub(super) fn settle_whole(&mut self) {
         self.settle(SEARCHES, ROUNDS);
-        self.learn_whole();
+    }
+
+    fn settled(&mut self, i: usize, jump: bool) -> Sample {
+        if jump {
+            self.search(i);
+        }
+        self.step(i)
+    }
+
+    fn learn(&mut self, samples: &[Sample]) {
+        let slownesses: Vec<f64> = self.impacts.iter().map(|i| i.slowness).collect();
+        let smoothing = samples_in(MISFIT_S, self.rate);
+        self.template.learn(samples, &slownesses, smoothing);
+    }
+
+    /// Learns the whole template from those impacts that sound alone, or from all if they are too few.
+    pub(super) fn learn_whole(&mut self) {
+        let length = self.template.len();
+        let apart = real(length + self.template.before);
+        let position = |i: usize| self.impacts[i].position;
+        let alone = |&i: &usize| {
+            let before = i
+                .checked_sub(1)
+                .is_none_or(|j| position(i) - position(j) > apart);
+            before && (i + 1 == self.impacts.len() || position(i + 1) - position(i) > apart)
+        };
+        let mut of: Vec<usize> = (0..self.impacts.len()).filter(alone).collect();
+        if of.len() < FEWEST_ALONE {
+            of = (0..self.impacts.len()).collect();
+        }
+        let samples: Vec<Sample> = of.into_iter().map(|i| self.sample(i, length)).collect();
+        self.learn(&samples);
+    }
+
+    /// The power that nothing explains in the sound of an impact, where it stands out.
+    fn knocks(&self, i: usize, head: &Sample) -> Vec<f64> {
+        let reach = samples_in(KNOCK_S, self.rate);
+        let shape = self.template.shape(i);
+        let left = head
+            .sound
+            .iter()
+            .zip(shape)
+            .map(|(x, s)| (x - head.amplitude * s).powi(2));
+        let known = smoothed(&self.noise(self.begin(i), head.sound.len(), None), reach);
+        let mut knocks = smoothed(&left.collect::<Vec<f64>>(), reach);
+        for (knock, known) in knocks.iter_mut().zip(known) {
+            if *knock < KNOCK * known {
+                *knock = 0.0;
+            }
+        }
+        knocks
     }
 
     /// Where the window of an impact begins, in samples of the stretch.
@@ -63,11 +113,15 @@ impl Joint {
     fn take_out_others(&self, i: usize, begin: f64, samples: &mut [f64]) {
         for (j, other) in self.impacts.iter().enumerate() {
             let offset = begin - self.begin(j);
-            let overlaps = offset < real(self.template.len() + KERNEL)
-                && offset + real(samples.len() + KERNEL) > 0.0;
+            let heard = self.template.sounding_length(other.amplitude);
+            let overlaps = offset < real(heard) && offset + real(samples.len() + KERNEL) > 0.0;
             if j != i && overlaps {
-                let sounding = shifted(self.template.shape(j), offset, samples.len());
-                for (x, s) in samples.iter_mut().zip(sounding) {
+                // From its first sample to its last, as far as they are among these.
+                let skip = samples_in((-offset).floor(), 1.0).saturating_sub(KERNEL);
+                let last = samples_in((real(heard) - offset).ceil(), 1.0).min(samples.len());
+                let (from, count) = (offset + real(skip), last.saturating_sub(skip));
+                let sounding = shifted(self.template.shape(j), from, count);
+                for (x, s) in samples[skip.min(last)..].iter_mut().zip(sounding) {
                     *x -= other.amplitude * s;
                 }
             }
@@ -110,17 +164,6 @@ impl Joint {
         noise
     }
 
-    /// Adds what nothing explains to the noise from a position on.
-    fn add_knocks(&self, begin: f64, noise: &mut [f64]) {
-        let (skip, from) = (
-            samples_in(-begin, 1.0).min(noise.len()),
-            samples_in(begin, 1.0).min(self.knocks.len()),
-        );
-        for (n, k) in noise[skip..].iter_mut().zip(&self.knocks[from..]) {
-            *n += k;
-        }
-    }
-
     /// Puts an impact where it fits best within its reach, in what the others leave.
     fn search(&mut self, i: usize) {
         let impact = &self.impacts[i];
@@ -150,14 +193,12 @@ impl Joint {
         let begin = self.begin(i);
         let mut wide = shifted(&self.sound, begin - real(KERNEL), head + 2 * KERNEL);
         self.take_out_others(i, begin - real(KERNEL), &mut wide);
-        let mut noise = self.noise(begin, head, None);
-        self.add_knocks(begin, &mut noise);
+        let noise = self.noise_and_knocks(i, head);
         let (shape, slopes) = (self.template.shape(i), self.template.slopes(i, head));
         let normal = Normal::of(&wide[KERNEL..KERNEL + head], &noise, shape, &slopes);
         let impact = &mut self.impacts[i];
-        let (amplitude, moved, std) = normal.solve(impact.amplitude);
+        let (amplitude, moved, _) = normal.solve(impact.amplitude);
         impact.amplitude = amplitude.max(LEAST_AMPLITUDE * impact.amplitude);
-        impact.std = std;
         let moved = moved.clamp(-STEP, STEP);
         impact.position += moved;
         Sample {
@@ -168,67 +209,31 @@ impl Joint {
         }
     }
 
-    /// The sounds of all impacts, each over the whole template, the others taken out of it.
-    pub(super) fn samples(&self) -> Vec<Sample> {
-        let left = self.residue();
-        let length = self.template.len();
-        let sample = |i: usize| {
-            let impact = &self.impacts[i];
-            let begin = self.begin(i);
-            let mut sound = shifted(&left, begin, length);
-            for (x, s) in sound.iter_mut().zip(self.template.shape(i)) {
-                *x += impact.amplitude * s;
-            }
-            let mut noise = self.noise(begin, length, None);
-            self.add_knocks(begin, &mut noise);
-            Sample {
-                amplitude: impact.amplitude,
-                slowness: impact.slowness,
-                sound,
-                noise,
-            }
-        };
-        (0..self.impacts.len()).map(sample).collect()
+    /// Noise at the samples of an impact, with what nothing explains.
+    fn noise_and_knocks(&self, i: usize, length: usize) -> Vec<f64> {
+        let mut noise = self.noise(self.begin(i), length, None);
+        for (n, k) in noise.iter_mut().zip(&self.impacts[i].knocks) {
+            *n += k;
+        }
+        noise
     }
 
-    /// Learns the whole template, and where nothing explains what is heard.
-    pub(super) fn learn_whole(&mut self) {
-        let samples = self.samples();
-        self.template
-            .learn(&samples, samples_in(MISFIT_S, self.rate));
-        let reach = samples_in(KNOCK_S, self.rate);
-        let left: Vec<f64> = self.residue().iter().map(|x| x * x).collect();
-        let known = smoothed(&self.noise(0.0, left.len(), None), reach);
-        self.knocks = smoothed(&left, reach);
-        for (knock, known) in self.knocks.iter_mut().zip(known) {
-            if *knock < KNOCK * known {
-                *knock = 0.0;
-            }
+    /// The sound of an impact as it stands, the others taken out.
+    pub(super) fn sample(&self, i: usize, length: usize) -> Sample {
+        let begin = self.begin(i);
+        let mut sound = shifted(&self.sound, begin, length);
+        self.take_out_others(i, begin, &mut sound);
+        Sample {
+            amplitude: self.impacts[i].amplitude,
+            slowness: self.impacts[i].slowness,
+            sound,
+            noise: self.noise_and_knocks(i, length),
         }
-    }
-
-    /// What all impacts together leave unexplained.
-    fn residue(&self) -> Vec<f64> {
-        let mut left = self.sound.clone();
-        for (i, impact) in self.impacts.iter().enumerate() {
-            let begin = self.begin(i);
-            let whole = begin.floor();
-            let sounding = shifted(
-                self.template.shape(i),
-                whole - begin,
-                self.template.len() + 1,
-            );
-            let (skip, from) = (
-                samples_in(-whole, 1.0).min(sounding.len()),
-                samples_in(whole, 1.0).min(left.len()),
-            );
-            for (x, s) in left[from..].iter_mut().zip(&sounding[skip..]) {
-                *x -= impact.amplitude * s;
-            }
-        }
-        left
     }
 }
+
+/// Fewest impacts that the whole template is learnt from alone.
+const FEWEST_ALONE: usize = 4;
 
 /// An amplitude falls at most to this share in one step: it never vanishes or turns round.
 const LEAST_AMPLITUDE: f64 = 0.1;

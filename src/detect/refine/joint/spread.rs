@@ -2,7 +2,7 @@
 
 use super::Joint;
 use super::settle::Normal;
-use super::template::{MOST_SHARE, Sample};
+use super::template::{MOST_SHARE, Sample, sums};
 use crate::units::real;
 
 /// Blocks of equal information that a sound is cut into; two parameters are fitted to them.
@@ -23,14 +23,11 @@ const FAINTEST: f64 = 3.0;
 /// ```
 /// Its ratio to the variance of independent samples varies slowly along the drop and is averaged over neighbours.
 pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
-    let samples = joint.samples();
-    let length = joint.template.len();
-    let mut weights = vec![0.0; length];
-    for s in &samples {
-        for (w, n) in weights.iter_mut().zip(&s.noise) {
-            *w += s.amplitude * s.amplitude / n;
-        }
-    }
+    let length = joint.template.head;
+    let samples: Vec<Sample> = (0..joint.impacts.len())
+        .map(|i| joint.sample(i, length))
+        .collect();
+    let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let mut judged: Vec<Option<(f64, f64)>> = Vec::with_capacity(samples.len());
     for (i, sample) in samples.iter().enumerate() {
         judged.push(errors(
@@ -52,20 +49,19 @@ pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
 }
 
 /// Standard error of one position by independent samples and by blocks.
-fn errors(
-    sample: &Sample,
-    shape: &[f64],
-    slopes: &[f64],
-    weights: &[f64],
-) -> Option<(f64, f64)> {
+fn errors(sample: &Sample, shape: &[f64], slopes: &[f64], weights: &[f64]) -> Option<(f64, f64)> {
     let normal = Normal::of(&sample.sound, &sample.noise, shape, slopes);
     let (amplitude, _, independent) = normal.solve(sample.amplitude);
     if !independent.is_finite() || normal.clearness(amplitude) < FAINTEST {
         return None;
     }
-    let information: f64 = slopes.iter().zip(&sample.noise).map(|(d, n)| d * d / n).sum();
+    let information: f64 = slopes
+        .iter()
+        .zip(&sample.noise)
+        .map(|(d, n)| d * d / n)
+        .sum();
     let (mut sums, mut known) = ([0.0; BLOCKS], 0.0);
-    for t in 0..shape.len() {
+    for t in 0..slopes.len() {
         let noise = sample.noise[t];
         let share = (sample.amplitude.powi(2) / noise / weights[t]).min(MOST_SHARE);
         let left = (sample.sound[t] - sample.amplitude * shape[t]) / (1.0 - share).sqrt();

@@ -21,6 +21,8 @@ pub(super) struct Template {
     pub head: usize,
     /// The sound of each impact, where impacts differ by their speed.
     shapes: Vec<Vec<f64>>,
+    /// Greatest of the smoothed squares of the mean from each sample on.
+    tail: Vec<f64>,
 }
 
 /// What is known of one impact's sound.
@@ -44,7 +46,7 @@ impl Template {
             before,
             ..Self::default()
         };
-        template.head = template.head_length();
+        template.measure(before / 8);
         template
     }
 
@@ -82,31 +84,50 @@ impl Template {
             .clamp((2 * self.before).min(self.len()), self.len())
     }
 
-    /// Learns the first samples of all components anew, as many as the impacts' sounds have.
+    /// Samples after which an impact of an amplitude is not heard any more.
+    pub(super) fn sounding_length(&self, amplitude: f64) -> usize {
+        let square = amplitude * amplitude;
+        self.tail.partition_point(|t| square * t > INAUDIBLE)
+    }
+
+    /// Learns the first samples of all components anew from some impacts, as many samples as their sounds have;
+    /// `slownesses` are those of all impacts.
     ///
     /// # Formula
     /// ```text
     /// S(t) minimises Σ_i w_i(t)·(x_i(t)/a_i − Σ_c u_iᶜ·S_c(t))²,   w_i(t) = a_i²/noise_i(t)
     /// ```
-    pub(super) fn learn(&mut self, impacts: &[Sample], smoothing: usize) {
+    pub(super) fn learn(&mut self, impacts: &[Sample], slownesses: &[f64], smoothing: usize) {
         let length = impacts.first().map_or(0, |s| s.sound.len());
-        let whole = length == self.len();
-        for t in 0..length {
-            let values = weighted_fit(impacts, t, self.components.len());
-            for (component, value) in self.components.iter_mut().zip(values) {
-                component[t] = value;
-            }
-        }
-        self.shapes = if self.components.len() > 1 {
-            impacts.iter().map(|s| self.sounding(s.slowness)).collect()
+        let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::weights).collect();
+        if self.components.len() == 1 {
+            weighted_mean(impacts, &weights, &mut self.components[0][..length]);
         } else {
-            Vec::new()
-        };
-        let misfit = self.misfit_of(impacts, length);
-        self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
-        if whole {
-            self.head = self.head_length();
+            for t in 0..length {
+                let values = weighted_fit(impacts, &weights, t, self.components.len());
+                for (component, value) in self.components.iter_mut().zip(values) {
+                    component[t] = value;
+                }
+            }
+            self.shapes = slownesses.iter().map(|&u| self.sounding(u)).collect();
         }
+        let misfit = self.misfit_of(impacts, &weights);
+        self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
+        if length == self.len() {
+            self.measure(smoothing);
+        }
+    }
+
+    /// Measures how long it is heard, and its head.
+    fn measure(&mut self, smoothing: usize) {
+        let squares: Vec<f64> = self.mean().iter().map(|s| s * s).collect();
+        self.tail = smoothed(&squares, smoothing);
+        let mut greatest: f64 = 0.0;
+        for t in self.tail.iter_mut().rev() {
+            greatest = greatest.max(*t);
+            *t = greatest;
+        }
+        self.head = self.head_length();
     }
 
     /// `Σ_c uᶜ·S_c`.
@@ -123,23 +144,22 @@ impl Template {
     /// What the impacts leave over, above what is known to be noise, for an amplitude of 1.
     ///
     /// An impact that makes up the share h of its own template leaves 1 − h of its difference.
-    fn misfit_of(&self, impacts: &[Sample], length: usize) -> Vec<f64> {
+    fn misfit_of(&self, impacts: &[Sample], weights: &[Vec<f64>]) -> Vec<f64> {
         let power: f64 = impacts.iter().map(|s| s.amplitude * s.amplitude).sum();
-        let mut misfit = vec![0.0; length];
-        let mut weights = vec![0.0; length];
-        for s in impacts {
-            for (w, n) in weights.iter_mut().zip(&s.noise) {
-                *w += s.amplitude * s.amplitude / n;
-            }
-        }
-        for (i, s) in impacts.iter().enumerate() {
+        let all = sums(weights);
+        let mut misfit = vec![0.0; all.len()];
+        for (s, weights) in impacts.iter().zip(weights) {
             let square = s.amplitude * s.amplitude;
-            let shape = self.shape(i);
-            for t in 0..length {
-                let share = (square / s.noise[t] / weights[t]).min(MOST_SHARE);
+            let shape = if self.shapes.is_empty() {
+                self.mean().to_vec()
+            } else {
+                self.sounding(s.slowness)
+            };
+            for (t, misfit) in misfit.iter_mut().enumerate() {
+                let share = (weights[t] / all[t]).min(MOST_SHARE);
                 let left = s.sound[t] - s.amplitude * shape[t];
                 let others = s.noise[t] - square * self.misfit[t];
-                misfit[t] += left * left / (1.0 - share) - others;
+                *misfit += left * left / (1.0 - share) - others;
             }
         }
         for v in &mut misfit {
@@ -149,16 +169,51 @@ impl Template {
     }
 }
 
+impl Sample {
+    /// `a²/noise`: how much the impact knows of the template.
+    pub(super) fn weights(&self) -> Vec<f64> {
+        let square = self.amplitude * self.amplitude;
+        self.noise.iter().map(|n| square / n).collect()
+    }
+}
+
+/// The sum of sequences of one length.
+pub(super) fn sums(of: &[Vec<f64>]) -> Vec<f64> {
+    let mut sums = vec![0.0; of.first().map_or(0, Vec::len)];
+    for values in of {
+        for (sum, value) in sums.iter_mut().zip(values) {
+            *sum += value;
+        }
+    }
+    sums
+}
+
+/// A tail of less power than this, noise being 1, is not heard.
+const INAUDIBLE: f64 = 0.02;
+
 /// An impact that is nearly all of its own template says little of how impacts differ.
 pub(super) const MOST_SHARE: f64 = 0.9;
 
+/// `Σ w·x/a / Σ w` at each sample.
+fn weighted_mean(impacts: &[Sample], weights: &[Vec<f64>], mean: &mut [f64]) {
+    mean.fill(0.0);
+    for (s, weights) in impacts.iter().zip(weights) {
+        let scale = 1.0 / s.amplitude;
+        for ((m, w), x) in mean.iter_mut().zip(weights).zip(&s.sound) {
+            *m += w * scale * x;
+        }
+    }
+    for (m, w) in mean.iter_mut().zip(sums(weights)) {
+        *m /= w;
+    }
+}
+
 /// The components at one sample: up to three normal equations.
-fn weighted_fit(impacts: &[Sample], t: usize, components: usize) -> Vec<f64> {
+fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], t: usize, components: usize) -> Vec<f64> {
     let (mut moments, mut right) = ([0.0; 5], [0.0; 3]);
-    for s in impacts {
-        let weight = s.amplitude * s.amplitude / s.noise[t];
+    for (s, weights) in impacts.iter().zip(weights) {
         let value = s.sound[t] / s.amplitude;
-        let mut power = weight;
+        let mut power = weights[t];
         for (k, moment) in moments.iter_mut().enumerate().take(2 * components - 1) {
             *moment += power;
             if k < components {
@@ -239,7 +294,8 @@ mod tests {
             .collect();
         let mut template = Template::new(vec![0.0; 60], 10);
         template.components.push(vec![0.0; 60]);
-        template.learn(&impacts, 2);
+        let slownesses: Vec<f64> = impacts.iter().map(|s| s.slowness).collect();
+        template.learn(&impacts, &slownesses, 2);
         for t in 0..60 {
             for (component, shape) in template.components.iter().zip(shapes) {
                 let off = component[t] - shape(real(t));
