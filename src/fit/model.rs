@@ -163,11 +163,7 @@ impl<'a> State<'a> {
             (self.terms.drag, self.values.drag_per_s2, 0.0),
             (self.terms.speed, 0.0, f64::NEG_INFINITY),
         ] {
-            priors.extend(known.map(|k| Prior {
-                precision: k.std.powi(-2),
-                centre: k.value - trial,
-                least: least - trial,
-            }));
+            priors.extend(known.map(|k| Prior::new(k.value - trial, k.std, least - trial)));
         }
         priors
     }
@@ -288,10 +284,9 @@ pub(super) fn pulls(
     solution: &Solution,
 ) -> Option<Vec<f64>> {
     let mut left = bounces.ln_e.clone();
-    for (column, value) in bounces.columns.iter().zip(&solution.values) {
-        for (l, x) in left.iter_mut().zip(column) {
-            *l -= value * x;
-        }
+    for (left, row) in left.iter_mut().zip(&bounces.design) {
+        let explained = row.iter().zip(&solution.values).map(|(x, b)| x * b);
+        *left -= explained.sum::<f64>();
     }
     Some(noise.factors(sizes)?.solve(&left))
 }
@@ -313,21 +308,16 @@ fn budget(bounces: &Bounces, noise: &Noise, priors: &[Prior], posterior: &Poster
         let pairs = s.covariance[0].iter().zip(priors);
         pairs.map(|(v, p)| v * v * p.precision).sum()
     });
-    let share = |of: fn(Sizes, (f64, f64)) -> f64| {
-        posterior.mean_of(|sizes, s| {
-            let mut target = vec![0.0; bounces.ln_e.len()];
-            for (column, v) in bounces.columns.iter().zip(&s.covariance[0]) {
-                for (t, x) in target.iter_mut().zip(column) {
-                    *t += v * x;
-                }
-            }
-            noise
-                .factors(sizes)
-                .map_or(0.0, |f| of(sizes, noise.shares(&f.solve(&target))))
-        })
-    };
-    let timing = share(|sizes, (timing, _)| sizes.timing.powi(2) * timing);
-    let bounce = share(|sizes, (_, own)| sizes.bounce.powi(2) * own);
+    let (timing, bounce) = posterior.mean_of_two(|sizes, s| {
+        let rows = bounces.design.iter();
+        let target: Vec<f64> = rows
+            .map(|row| row.iter().zip(&s.covariance[0]).map(|(x, v)| x * v).sum())
+            .collect();
+        let (timing, own) = noise
+            .factors(sizes)
+            .map_or((0.0, 0.0), |f| noise.shares(&f.solve(&target)));
+        (sizes.timing.powi(2) * timing, sizes.bounce.powi(2) * own)
+    });
     let noise_sizes = posterior.mean_of(|_, s| (s.values[0] - mean).powi(2));
     let total = timing + bounce + inputs + noise_sizes;
     Budget {

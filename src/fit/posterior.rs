@@ -91,6 +91,12 @@ impl Posterior {
         self.parts.iter().map(|(w, n, s)| w * of(*n, s)).sum()
     }
 
+    /// Means of two things that are found together.
+    pub(super) fn mean_of_two(&self, of: impl Fn(Sizes, &Solution) -> (f64, f64)) -> (f64, f64) {
+        let parts = self.parts.iter().map(|(w, n, s)| (w, of(*n, s)));
+        parts.fold((0.0, 0.0), |(a, b), (w, (x, y))| (a + w * x, b + w * y))
+    }
+
     /// The value below which a parameter lies with this probability.
     pub(super) fn quantile(&self, parameter: usize, probability: f64) -> f64 {
         let normal = Normal::standard();
@@ -139,8 +145,8 @@ const BISECTIONS: usize = 26;
 /// τ: the harmonic mean of the timing variances, as a standard deviation.
 fn floor(noise: &Noise) -> f64 {
     let variances = noise.timing_variances();
-    let precision: f64 = variances.iter().map(|v| 1.0 / v).sum();
-    (real(variances.len()) / precision).sqrt()
+    let count = real(variances.len());
+    (count / variances.map(|v| 1.0 / v).sum::<f64>()).sqrt()
 }
 
 /// The part of the range of `ln σ_e` that matters.
