@@ -153,7 +153,7 @@ const TRANSFORM_LENGTHS: usize = 6;
 
 /// `Σ_j a[k + j]·b[j]` for every k at which b lies within a, by Fourier transforms of stretches of a that overlap by b.
 pub(super) fn correlate(a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
-    let count = (a.len() + 1).checked_sub(b.len().max(1))?;
+    let count = a.len().checked_sub(b.len())? + 1;
     let length = (TRANSFORM_LENGTHS * b.len())
         .min(a.len())
         .next_power_of_two();
