@@ -26,7 +26,7 @@ const HERMITE: [(f64, f64); 3] = [
 ];
 
 /// Mixture of the solutions at all sizes of the noises, each by its share of the evidence.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Posterior {
     parts: Vec<(f64, Sizes, Solution)>,
     /// ln of the evidence for the model.
