@@ -70,9 +70,8 @@ fn analysis(path: &Path) -> usize {
     let mut stream = Stream::open_file(path).unwrap();
     let rate = f64::from(stream.container().sample_rate_hz);
     let mut listener = Listener::new(1, rate, &Settings::default()).unwrap();
-    while let Some(block) = stream.next_block().unwrap() {
-        listener.push(block).unwrap();
-    }
+    let mut next = |room: &mut [Vec<f32>]| stream.append(&(0..1), room).unwrap();
+    while listener.push_with(&mut next).unwrap() {}
     listener.finish().unwrap().1.drops.len()
 }
 

@@ -173,9 +173,7 @@ fn listen(arguments: &Arguments, mut stream: Stream<impl Read>) -> Result<Report
     let rate = f64::from(stream.container().sample_rate_hz);
     let encoding = stream.container().encoding();
     let mut listener = Listener::new(heard.len(), rate, &settings)?;
-    while let Some(block) = stream.next_block()? {
-        listener.push(&block[heard.clone()])?;
-    }
+    while listener.push_with(|room| stream.append(&heard, room))?? {}
     // A file without audio is no WAV to listen to: that comes before what was not found in it.
     let ending = stream.finish()?;
     let (channel, mut analysis) = listener.finish()?;

@@ -79,21 +79,20 @@ impl Filterbank {
     #[must_use]
     pub fn split(&self, samples: &[f32]) -> Vec<Band> {
         let hops = samples.len().div_ceil(self.hop);
-        let mut low = samples.to_vec();
+        let mut low = Vec::with_capacity(hops * self.hop);
+        low.extend_from_slice(samples);
         low.resize(hops * self.hop, 0.0);
         let mut per_hop = self.hop;
         let mut dilation = 1;
-        let mut padded = Vec::new();
+        let mut scratch = Scratch::default();
         self.widths_hz
             .iter()
             .map(|&width_hz| {
                 let energies = if per_hop > 1 {
                     per_hop /= 2;
-                    let mut squares = self.decimate(&mut low, &mut padded);
-                    average(&mut squares, per_hop);
-                    squares
+                    self.decimate(&mut low, per_hop, &mut scratch)
                 } else {
-                    let squares = self.divide(&mut low, dilation, &mut padded);
+                    let squares = self.divide(&mut low, dilation, &mut scratch);
                     dilation *= 2;
                     squares
                 };
@@ -102,64 +101,81 @@ impl Filterbank {
             .collect()
     }
 
-    /// Splits at a quarter of the rate and keeps every second sample: `low` becomes the low half, the squares of the
-    /// high half are returned. Output `m` stands at the time of input `2m`.
-    fn decimate(&self, low: &mut Vec<f32>, odd: &mut Vec<f32>) -> Vec<f32> {
+    /// Splits at a quarter of the rate and keeps every second sample: `low` becomes the low half, the mean squares of
+    /// the high half are returned, of so many samples each. Output `m` stands at the time of input `2m`.
+    fn decimate(&self, low: &mut Vec<f32>, per_hop: usize, scratch: &mut Scratch) -> Vec<f32> {
         let half = low.len() / 2;
-        // Odd samples with TAP_PAIRS of silence before them, and enough after them for whole blocks.
-        odd.clear();
-        odd.resize(TAP_PAIRS, 0.0);
-        odd.extend(low.as_chunks::<2>().0.iter().map(|pair| pair[1]));
-        odd.resize(half + 2 * TAP_PAIRS + BLOCK, 0.0);
-        let mut squares = vec![0.0; half];
-        for (block, squares) in squares.chunks_mut(BLOCK).enumerate() {
-            let start = BLOCK * block;
-            let side = self.sides(|k| (start + TAP_PAIRS - 1 - k, start + TAP_PAIRS + k), odd);
-            for (i, (square, side)) in squares.iter_mut().zip(side).enumerate() {
-                let centre = 0.5 * low[2 * (start + i)];
-                low[start + i] = centre + side;
-                *square = (centre - side) * (centre - side);
-            }
+        // Silence before and after, and enough of it for whole blocks.
+        let length = half.next_multiple_of(BLOCK);
+        let (even, odd) = (&mut scratch.centre, &mut scratch.around);
+        clear(even, length);
+        clear(odd, length + 2 * TAP_PAIRS);
+        let (pairs, _) = low.as_chunks::<2>();
+        for ((even, odd), pair) in even.iter_mut().zip(&mut odd[TAP_PAIRS..]).zip(pairs) {
+            (*even, *odd) = (pair[0], pair[1]);
+        }
+        low.resize(length, 0.0);
+        let mut squares = vec![0.0; length];
+        let blocks = low.as_chunks_mut::<BLOCK>().0.iter_mut();
+        let centres = even.as_chunks::<BLOCK>().0;
+        let squares_of = squares.as_chunks_mut::<BLOCK>().0;
+        for (i, ((low, square), centre)) in blocks.zip(squares_of).zip(centres).enumerate() {
+            let Some(near) = odd[BLOCK * i..].first_chunk::<NEAR>() else {
+                break;
+            };
+            let side = self.sides(|k| {
+                (
+                    &near[TAP_PAIRS - 1 - k..][..BLOCK],
+                    &near[TAP_PAIRS + k..][..BLOCK],
+                )
+            });
+            halves(centre, &side, low, square);
         }
         low.truncate(half);
+        squares.truncate(half);
+        average(&mut squares, per_hop);
         squares
     }
 
     /// Splits at a quarter of `rate / dilation` without decimation: `low` becomes the low half, the squares of the high
     /// half are returned.
-    fn divide(&self, low: &mut [f32], dilation: usize, padded: &mut Vec<f32>) -> Vec<f32> {
+    fn divide(&self, low: &mut Vec<f32>, dilation: usize, scratch: &mut Scratch) -> Vec<f32> {
         // The reach of the filter in silence on both sides.
         let reach = (2 * TAP_PAIRS - 1) * dilation;
-        padded.clear();
-        padded.resize(reach, 0.0);
-        padded.extend_from_slice(low);
-        padded.resize(low.len() + 2 * reach + BLOCK, 0.0);
-        let mut squares = vec![0.0; low.len()];
-        let blocks = low.chunks_mut(BLOCK).zip(squares.chunks_mut(BLOCK));
-        for (block, (low, squares)) in blocks.enumerate() {
-            let centre = BLOCK * block + reach;
+        let count = low.len();
+        let length = count.next_multiple_of(BLOCK);
+        let padded = &mut scratch.around;
+        clear(padded, length + 2 * reach);
+        padded[reach..reach + count].copy_from_slice(low);
+        low.resize(length, 0.0);
+        let mut squares = vec![0.0; length];
+        let blocks = low.as_chunks_mut::<BLOCK>().0.iter_mut();
+        let squares_of = squares.as_chunks_mut::<BLOCK>().0;
+        for (i, (low, square)) in blocks.zip(squares_of).enumerate() {
+            let centre = BLOCK * i + reach;
             let shift = |k: usize| (2 * k + 1) * dilation;
-            let side = self.sides(|k| (centre - shift(k), centre + shift(k)), padded);
-            for ((low, square), side) in low.iter_mut().zip(squares).zip(side) {
-                let centre = 0.5 * *low;
-                *low = centre + side;
-                *square = (centre - side) * (centre - side);
-            }
+            let side = self.sides(|k| {
+                (
+                    &padded[centre - shift(k)..][..BLOCK],
+                    &padded[centre + shift(k)..][..BLOCK],
+                )
+            });
+            halves(&low.clone(), &side, low, square);
         }
+        low.truncate(count);
+        squares.truncate(count);
         squares
     }
 
-    /// `Σ h_k (x[before_k + i] + x[after_k + i])` for a block of i; `at` gives `before_k` and `after_k`.
+    /// `Σ h_k (before_k[i] + after_k[i])` for a block of i.
     ///
     /// Block by block, so that sums of neighbours run side by side in the machine's vectors.
-    fn sides(&self, at: impl Fn(usize) -> (usize, usize), x: &[f32]) -> [f32; BLOCK] {
+    #[inline]
+    fn sides<'a>(&self, at: impl Fn(usize) -> (&'a [f32], &'a [f32])) -> [f32; BLOCK] {
         let mut sums = [0.0; BLOCK];
         for (k, h) in self.taps.iter().enumerate() {
             let (before, after) = at(k);
-            let pairs = x[before..before + BLOCK]
-                .iter()
-                .zip(&x[after..after + BLOCK]);
-            for (sum, (b, a)) in sums.iter_mut().zip(pairs) {
+            for ((sum, b), a) in sums.iter_mut().zip(before).zip(after) {
                 *sum += h * (b + a);
             }
         }
@@ -167,8 +183,36 @@ impl Filterbank {
     }
 }
 
-/// Outputs that are computed at once.
-const BLOCK: usize = 16;
+/// The low half of a block, and the squares of the high half, from its centre taps and the sums of the others.
+fn halves(
+    centre: &[f32; BLOCK],
+    side: &[f32; BLOCK],
+    low: &mut [f32; BLOCK],
+    squares: &mut [f32; BLOCK],
+) {
+    for i in 0..BLOCK {
+        let half = 0.5 * centre[i];
+        low[i] = half + side[i];
+        squares[i] = (half - side[i]) * (half - side[i]);
+    }
+}
+
+/// What the filters lay out anew for each band.
+#[derive(Debug, Default)]
+struct Scratch {
+    centre: Vec<f32>,
+    around: Vec<f32>,
+}
+
+fn clear(values: &mut Vec<f32>, length: usize) {
+    values.clear();
+    values.resize(length, 0.0);
+}
+
+/// Outputs that are computed at once: as many as the machine's vector registers hold, with room for their inputs.
+const BLOCK: usize = 32;
+/// Odd samples that the outputs of a block depend on.
+const NEAR: usize = BLOCK + 2 * TAP_PAIRS;
 
 /// `h_k = sin(π(2k+1)/2) / (π(2k+1))`, the ideal half-band filter, under a Blackman window, scaled to pass 0 Hz whole.
 fn half_band_taps() -> [f32; TAP_PAIRS] {
@@ -188,19 +232,17 @@ fn half_band_taps() -> [f32; TAP_PAIRS] {
     std::array::from_fn(|k| (0.25 * ideal(k) / sum) as f32)
 }
 
-/// Replaces every `count` values by their mean.
+/// Replaces every `count` values, a power of two, by their mean.
 fn average(values: &mut Vec<f32>, count: usize) {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "a hop is a few dozen samples"
-    )]
-    let scale = 1.0 / real(count) as f32;
-    if count > 1 {
-        let means = values.len() / count;
-        for m in 0..means {
-            values[m] = scale * values[m * count..(m + 1) * count].iter().sum::<f32>();
+    let mut left = count;
+    while left > 1 {
+        // By halves, pair by pair: that runs side by side, a sum of some neighbours does not.
+        let half = values.len() / 2;
+        for m in 0..half {
+            values[m] = 0.5 * (values[2 * m] + values[2 * m + 1]);
         }
-        values.truncate(means);
+        values.truncate(half);
+        left /= 2;
     }
 }
 

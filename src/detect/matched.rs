@@ -41,7 +41,7 @@ pub fn candidates(
     let most = samples_in(PER_SECOND, region_s.1 - region_s.0);
     let apart = samples_in(APART_S, sample_rate_hz).max(1);
     let mut found: Vec<Candidate> = Residue::new(&sound, &voice)?
-        .take_out(&voice, most, apart)
+        .take_out(most, apart)
         .into_iter()
         .map(|(position, z)| Candidate {
             time_s: (real(start + voice.before) + position) / sample_rate_hz,
@@ -56,15 +56,15 @@ pub fn candidates(
 /// The match of a stretch of sound against the voice at every sample, as far as it is not explained yet.
 ///
 /// Sounds are taken out of the match and not of the sound: taking `a·s` out at p changes the match at k by
-/// `a·R(k − p)`, where R is the match of the voice with itself.
+/// `a·R(k − p)`, where R is the match of the voice with itself. All in standard deviations of the noise: an `f32` holds
+/// the loudest impact to a hundredth of one.
 struct Residue {
-    products: Vec<f64>,
-    /// Where a match was taken out already.
-    taken: Vec<bool>,
-    /// The best match of each block that is still free.
-    best: Vec<(usize, f64)>,
-    /// R, from the lag `1 − matched` on.
-    own: Vec<f64>,
+    products: Vec<f32>,
+    /// 0 where a match may be taken out, −∞ where one was.
+    free: Vec<f32>,
+    /// The best free match of each block.
+    best: Vec<f32>,
+    own: OwnMatch,
 }
 
 /// Length of the blocks whose best match is remembered.
@@ -74,11 +74,16 @@ impl Residue {
     fn new(sound: &[f64], voice: &Voice) -> Option<Self> {
         let count = sound.len().checked_sub(voice.matched)?;
         let shape = &voice.shape[..voice.matched];
+        let scale = 1.0 / dot(shape, shape).sqrt();
+        let products = correlate(sound, shape)?;
         let mut residue = Self {
-            products: correlate(sound, shape)?[..count].to_vec(),
-            taken: vec![false; count],
-            best: vec![(0, 0.0); count.div_ceil(BLOCK)],
-            own: voice.own_match()?,
+            products: products[..count]
+                .iter()
+                .map(|p| narrow(scale * p))
+                .collect(),
+            free: vec![0.0; count],
+            best: vec![0.0; count.div_ceil(BLOCK)],
+            own: OwnMatch::of(voice)?,
         };
         residue.look_again(0, count);
         Some(residue)
@@ -86,66 +91,117 @@ impl Residue {
 
     /// Finds the best match anew in the blocks that hold these samples.
     fn look_again(&mut self, from: usize, to: usize) {
-        for block in from / BLOCK..to.min(self.products.len()).div_ceil(BLOCK) {
-            let start = block * BLOCK;
-            let end = (start + BLOCK).min(self.products.len());
-            let free = (start..end).filter(|&k| !self.taken[k]);
-            let best = free.max_by(|&a, &b| self.products[a].total_cmp(&self.products[b]));
-            self.best[block] = best.map_or((start, f64::NEG_INFINITY), |k| (k, self.products[k]));
+        let blocks = from / BLOCK..to.div_ceil(BLOCK);
+        let products = self.products.chunks(BLOCK).zip(self.free.chunks(BLOCK));
+        let best = self.best.iter_mut().zip(products);
+        for (best, (products, free)) in best.skip(blocks.start).take(blocks.len()) {
+            *best = highest(products.iter().zip(free).map(|(p, f)| p + f));
         }
     }
 
+    /// The best free match: its index and size.
+    fn top(&self) -> Option<(usize, f32)> {
+        let height = highest(self.best.iter().copied());
+        let start = BLOCK * self.best.iter().position(|&b| b >= height)?;
+        let block = self.products[start..].iter().zip(&self.free[start..]);
+        let offset = block.take(BLOCK).position(|(p, f)| p + f >= height)?;
+        Some((start + offset, height))
+    }
+
     /// Takes out match after match, the best first; gives their positions and sizes in standard deviations.
-    fn take_out(mut self, voice: &Voice, most: usize, apart: usize) -> Vec<(f64, f64)> {
-        let shape = &voice.shape[..voice.matched];
-        let energy = dot(shape, shape);
+    fn take_out(mut self, most: usize, apart: usize) -> Vec<(f64, f64)> {
         let mut found = Vec::new();
         for _ in 0..most {
-            let Some(&(best, product)) = self.best.iter().max_by(|a, b| a.1.total_cmp(&b.1)) else {
+            let Some((best, z)) = self.top().filter(|(_, z)| f64::from(*z) >= WEAKEST) else {
                 break;
             };
-            let z = product / energy.sqrt();
-            if z < WEAKEST {
-                break;
-            }
-            let position = real(best) + self.vertex(best);
-            found.push((position, z));
-            let (from, to) = (
-                best.saturating_sub(apart),
-                (best + apart + 1).min(self.taken.len()),
-            );
-            self.taken[from..to].fill(true);
-            self.subtract(position, product / energy, voice.matched);
+            let beside = self.vertex(best);
+            found.push((real(best) + beside, f64::from(z)));
+            let end = (best + apart + 1).min(self.free.len());
+            self.free[best.saturating_sub(apart)..end].fill(f32::NEG_INFINITY);
+            let (from, to) = self.own.subtract(&mut self.products, best, beside, z);
+            self.look_again(from, to);
         }
         found
     }
 
+    /// Where the parabola through three products is highest, from the middle one.
     fn vertex(&self, k: usize) -> f64 {
-        let at = |k: usize| self.products.get(k).copied();
-        let (Some(left), Some(right)) = (k.checked_sub(1).and_then(at), at(k + 1)) else {
+        let at = |k: usize| self.products.get(k).copied().map(f64::from);
+        let (Some(left), Some(middle), Some(right)) =
+            (k.checked_sub(1).and_then(at), at(k), at(k + 1))
+        else {
             return 0.0;
         };
-        let curvature = left - 2.0 * self.products[k] + right;
+        let curvature = left - 2.0 * middle + right;
         if curvature < 0.0 {
             (0.5 * (left - right) / curvature).clamp(-0.5, 0.5)
         } else {
             0.0
         }
     }
+}
 
-    fn subtract(&mut self, position: f64, amplitude: f64, matched: usize) {
-        let whole = position.floor();
-        let moved = shifted(&self.own, whole - position, self.own.len() + 1);
-        // The first value of `own` belongs to a lag of 1 − matched.
-        let first = samples_in(whole, 1.0);
-        let skip = (matched - 1).saturating_sub(first);
-        let from = (first + 1).saturating_sub(matched);
-        let end = (from + moved.len() - skip).min(self.products.len());
-        for (product, r) in self.products[from..end].iter_mut().zip(&moved[skip..]) {
-            *product -= amplitude * r;
-        }
-        self.look_again(from, end);
+/// The highest of some values, in lanes for the machine's vectors; −∞ of none.
+fn highest(values: impl ExactSizeIterator<Item = f32>) -> f32 {
+    values.fold(f32::NEG_INFINITY, |a, b| if b > a { b } else { a })
+}
+
+/// The match of the voice with itself, R over R(0), between samples too.
+struct OwnMatch {
+    /// R from a little more than ½ a sample earlier to as much later, in [`STEPS`] to a sample; all from one lag on.
+    phases: Vec<Vec<f32>>,
+    /// The index of lag 0.
+    centre: usize,
+}
+
+/// Steps between two samples at which R is known. Between them a parabola is laid through three, which is wrong by at
+/// most (π/16)³/16 = 0.05 % where R changes as fast as it can: the vertex of the match is farther off.
+const STEPS: usize = 16;
+
+impl OwnMatch {
+    fn of(voice: &Voice) -> Option<Self> {
+        let own = voice.own_match()?;
+        let scale = 1.0 / own.get(voice.matched - 1)?;
+        let phase = |step: usize| {
+            let later = (real(step) - 1.0) / real(STEPS) - 0.5;
+            let moved = shifted(&own, -1.0 - later, own.len() + 2);
+            moved.into_iter().map(|r| narrow(scale * r)).collect()
+        };
+        Some(Self {
+            phases: (0..STEPS + 3).map(phase).collect(),
+            // The first value of `own` belongs to a lag of 1 − matched, and one stands before it.
+            centre: voice.matched,
+        })
     }
+
+    /// Takes `z·R` out at an index and `later` in (−½, ½) of a sample; gives the range that changed.
+    fn subtract(&self, products: &mut [f32], at: usize, later: f64, z: f32) -> (usize, usize) {
+        let place = (later + 0.5) * real(STEPS);
+        let nearest = samples_in(place, 1.0).min(STEPS);
+        let off = narrow(place - real(nearest));
+        let weights = [
+            0.5 * z * off * (off - 1.0),
+            z * (1.0 - off * off),
+            0.5 * z * off * (off + 1.0),
+        ];
+        let skip = self.centre.saturating_sub(at);
+        let from = at.saturating_sub(self.centre);
+        let [a, b, c] = [0, 1, 2].map(|beside| &self.phases[nearest + beside][skip..]);
+        let end = (from + a.len()).min(products.len());
+        for (((product, a), b), c) in products[from..end].iter_mut().zip(a).zip(b).zip(c) {
+            *product -= weights[0] * a + weights[1] * b + weights[2] * c;
+        }
+        (from, end)
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "matches need no more than an f32"
+)]
+const fn narrow(x: f64) -> f32 {
+    x as f32
 }
 
 #[cfg(test)]

@@ -9,8 +9,8 @@ const FRAME_S: f64 = 1e-3;
 const UNIT_S: f64 = 0.25;
 /// Frames that say what is usual.
 const USUAL: usize = 8;
-/// A frame with this many times the usual energy is a reason to look closer. Of the 30 or more independent values of a
-/// frame of white noise, one in 10⁹ sums to that.
+/// A frame with this many times the usual energy is a reason to look closer. Of the 24 independent values that a frame
+/// of white noise at 48 kHz has at least, one in 10⁹ sums to that; of the 16 at the lowest rates, one in 10⁷.
 const RISE: f32 = 4.0;
 /// Samples that are averaged for the low band.
 const LOW: usize = 16;
@@ -20,7 +20,7 @@ const LOW_FRAMES: usize = 10;
 const SILENCE: f32 = 1e-14;
 
 /// Listens for frames that rise out of those before them: in the sound itself, in its treble (the differences of
-/// neighbours), or in its bass (the means of sixteen).
+/// pairs), or in its bass (the means of sixteen).
 ///
 /// Before the first sample there is silence, so the first sound of a recording always rises.
 #[derive(Debug, Clone)]
@@ -55,15 +55,9 @@ impl Watch {
         self.unit
     }
 
-    /// Whether anything rises in the next unit, which is what `samples` holds from an index on; the last unit of a
-    /// recording may be shorter.
-    pub fn rises(&mut self, samples: &[f32], from: usize) -> bool {
-        let unit = &samples[from..];
-        match from.checked_sub(1) {
-            Some(before) => self.measure(unit, &samples[before..]),
-            // Of the very first sample there is none before.
-            None => self.measure(unit, &[&unit[..unit.len().min(1)], unit].concat()),
-        }
+    /// Whether anything rises in the next unit; the last one of a recording may be shorter.
+    pub fn rises(&mut self, unit: &[f32]) -> bool {
+        self.measure(unit);
         let scale = 1.0 / narrow(self.frame);
         // The sums of sixteen, not their means, and for each group of sixteen one.
         let bass_scale = 1.0 / narrow(self.frame * LOW_FRAMES * LOW);
@@ -76,14 +70,12 @@ impl Watch {
         rises.contains(&true)
     }
 
-    /// Adds the energies of all whole frames; `earlier` begins one sample before `unit`.
-    fn measure(&mut self, unit: &[f32], earlier: &[f32]) {
-        let length = self.frame * LOW_FRAMES;
-        for (unit, earlier) in unit.chunks(length).zip(earlier.chunks(length)) {
-            let frames = unit.chunks_exact(self.frame);
+    /// Adds the energies of all whole frames.
+    fn measure(&mut self, unit: &[f32]) {
+        for frames in unit.chunks(self.frame * LOW_FRAMES) {
             let mut bass = 0.0;
-            for (frame, earlier) in frames.zip(earlier.chunks_exact(self.frame)) {
-                let sums = Sums::over(frame, earlier);
+            for frame in frames.chunks_exact(self.frame) {
+                let sums = Sums::over(frame);
                 self.all.energies.push(sums.all);
                 self.high.energies.push(sums.high);
                 bass += sums.bass;
@@ -135,33 +127,34 @@ const LANES: usize = 4;
 struct Sums {
     /// Σ x².
     all: f32,
-    /// Σ (x − the sample before)².
+    /// Σ (difference of two)², over pairs that do not overlap.
     high: f32,
     /// Σ (sum of sixteen)².
     bass: f32,
 }
 
 impl Sums {
-    /// Sums over a frame; `earlier` begins one sample before it.
-    fn over(frame: &[f32], earlier: &[f32]) -> Self {
-        let (mut all, mut high, mut bass) = ([0.0; LANES], [0.0; LANES], 0.0);
-        let groups = frame.as_chunks::<LOW>().0.iter();
-        for (group, earlier) in groups.zip(earlier.as_chunks::<LOW>().0) {
+    /// # Formula
+    /// `a² + b² = ½·[(a + b)² + (b − a)²]`: sums and differences of pairs give all three energies.
+    fn over(frame: &[f32]) -> Self {
+        let (mut sums, mut differences, mut bass) = ([0.0; LANES], [0.0; LANES], 0.0);
+        for group in frame.as_chunks::<LOW>().0 {
             let mut sixteen = [0.0; LANES];
-            let quads = group.as_chunks::<LANES>().0.iter();
-            for (x, before) in quads.zip(earlier.as_chunks::<LANES>().0) {
+            for pairs in group.as_chunks::<{ 2 * LANES }>().0 {
                 for i in 0..LANES {
-                    let step = x[i] - before[i];
-                    all[i] += x[i] * x[i];
-                    high[i] += step * step;
-                    sixteen[i] += x[i];
+                    let (a, b) = (pairs[2 * i], pairs[2 * i + 1]);
+                    let (sum, difference) = (a + b, b - a);
+                    sums[i] += sum * sum;
+                    differences[i] += difference * difference;
+                    sixteen[i] += sum;
                 }
             }
             bass += total(sixteen) * total(sixteen);
         }
+        let (sums, high) = (total(sums), total(differences));
         Self {
-            all: total(all),
-            high: total(high),
+            all: 0.5 * (sums + high),
+            high,
             bass,
         }
     }
@@ -199,7 +192,7 @@ mod tests {
         let mut watch = Watch::new(RATE_HZ);
         let unit = watch.unit();
         let starts = (0..samples.len()).step_by(unit);
-        let restless = starts.filter(|&i| watch.rises(&samples[..samples.len().min(i + unit)], i));
+        let restless = starts.filter(|&i| watch.rises(&samples[i..samples.len().min(i + unit)]));
         restless.map(|i| real(i) / RATE_HZ).collect()
     }
 

@@ -207,15 +207,33 @@ const COARSEST_STEP: f32 = 1.0 / 128.0;
 /// the sounds of a coarse recording a few samples toggle by one step and the rest are equal, so no quantile of its
 /// energy knows this.
 fn rounding_density(samples: &[f32], bank: &Filterbank) -> f64 {
-    let differences = samples.windows(2).map(|w| (w[1] - w[0]).abs());
-    let step = differences
-        .filter(|&d| d > 0.0)
-        .fold(f32::INFINITY, f32::min);
+    // Without branches, in lanes: it is one of the few things that look at every sample.
+    let mut least = [f32::INFINITY; LANES];
+    let next = samples.get(1..).unwrap_or_default();
+    let (chunks, rest) = next.as_chunks::<LANES>();
+    for (later, earlier) in chunks.iter().zip(samples.as_chunks::<LANES>().0) {
+        for (least, (b, a)) in least.iter_mut().zip(later.iter().zip(earlier)) {
+            *least = smaller_step(*least, b - a);
+        }
+    }
+    let tail = samples[samples.len() - samples.len().min(rest.len() + 1)..].windows(2);
+    let least = tail.map(|w| w[1] - w[0]).chain(least);
+    let step = least.fold(f32::INFINITY, smaller_step);
     if step <= COARSEST_STEP {
         f64::from(step).powi(2) / 12.0 / (0.5 * bank.sample_rate_hz())
     } else {
         0.0
     }
+}
+
+/// Lanes that run side by side in the machine's vectors.
+const LANES: usize = 8;
+
+/// The smaller of a step and the size of a difference that is not 0.
+fn smaller_step(step: f32, difference: f32) -> f32 {
+    let size = difference.abs();
+    let size = if size > 0.0 { size } else { f32::INFINITY };
+    if size < step { size } else { step }
 }
 
 /// Values of equal weight that a window with linearly falling weights is worth: (Σw)²/Σw² = ¾ of its length.
@@ -232,14 +250,24 @@ fn rises(energies: &[f32], after: usize, before: usize, floor: f32) -> Vec<f32> 
     ratios[..before.min(hops)].fill(0.0);
     let mean = 1.0 / real(before);
     let mut sum: f64 = energies.iter().take(before).copied().map(f64::from).sum();
-    let windows = energies.iter().zip(energies.iter().skip(before));
-    for (ratio, (&oldest, &newest)) in ratios.iter_mut().skip(before).zip(windows) {
-        let past = narrow((sum * mean).max(0.0));
-        *ratio = (*ratio + floor) / (past + floor);
-        sum += f64::from(newest) - f64::from(oldest);
+    let newest = energies.get(before..).unwrap_or_default();
+    let pairs = energies.chunks(AT_ONCE).zip(newest.chunks(AT_ONCE));
+    let after = ratios.get_mut(before..).unwrap_or_default();
+    for (ratios, (oldest, newest)) in after.chunks_mut(AT_ONCE).zip(pairs) {
+        let mut past = [0.0; AT_ONCE];
+        for (past, (&oldest, &newest)) in past.iter_mut().zip(oldest.iter().zip(newest)) {
+            *past = narrow((sum * mean).max(0.0));
+            sum += f64::from(newest) - f64::from(oldest);
+        }
+        for (ratio, past) in ratios.iter_mut().zip(past) {
+            *ratio = (*ratio + floor) / (past + floor);
+        }
     }
     ratios
 }
+
+/// Values of which the part that runs side by side is computed together.
+const AT_ONCE: usize = 64;
 
 /// Mean of the `window` values from each one on, with weights that fall linearly to nothing.
 fn falling_means(energies: &[f32], window: usize) -> Vec<f32> {
@@ -247,15 +275,22 @@ fn falling_means(energies: &[f32], window: usize) -> Vec<f32> {
     let scale = 2.0 / (length * real(window + 1));
     let (mut flat, mut falling) = (0.0, 0.0);
     let mut means = vec![0.0; energies.len()];
-    // What leaves the window as it moves one step earlier: nothing while it reaches past the end.
-    let past_end = std::iter::repeat_n(&0.0, window.min(energies.len()));
-    let leaving = past_end.chain(energies.iter().rev());
-    for ((mean, &energy), &left) in means.iter_mut().zip(energies).rev().zip(leaving) {
+    let mut step_back = |mean: &mut f32, energy: f32, left: f32| {
         let energy = f64::from(energy);
         // One step earlier every weight but the newest falls by one.
         falling += length * energy - flat;
         flat += energy - f64::from(left);
         *mean = narrow((scale * falling).max(0.0));
+    };
+    // What leaves the window as it moves one step earlier: nothing while it reaches past the end.
+    let whole = energies.len().saturating_sub(window);
+    let past_end = means[whole..].iter_mut().zip(&energies[whole..]);
+    for (mean, &energy) in past_end.rev() {
+        step_back(mean, energy, 0.0);
+    }
+    let inside = means[..whole].iter_mut().zip(energies);
+    for ((mean, &energy), &left) in inside.zip(&energies[energies.len() - whole..]).rev() {
+        step_back(mean, energy, left);
     }
     means
 }

@@ -39,6 +39,9 @@ pub(super) struct Values {
     pub drag_per_s2: f64,
 }
 
+/// Most parameters a model has: θ, C, K and p.
+pub(super) const MOST: usize = 4;
+
 /// The bounces around a trial of times and parameters.
 #[derive(Debug, Clone)]
 pub(super) struct Bounces {
@@ -46,10 +49,14 @@ pub(super) struct Bounces {
     pub ln_e: Vec<f64>,
     /// Its derivatives by the time of the impact before, its own and the one after.
     pub slopes: Vec<[f64; 3]>,
-    /// How ln e of each bounce depends on each fitted parameter; ones for θ first.
-    pub columns: Vec<Vec<f64>>,
-    /// How ln of the derivative of ln e by the flight after it depends on each fitted parameter.
-    pub stretching: Vec<Vec<f64>>,
+    /// How many parameters are fitted.
+    pub parameters: usize,
+    /// How ln e of each bounce depends on each fitted parameter; 1 for θ first, 0 past the last.
+    pub design: Vec<[f64; MOST]>,
+    /// ln of the derivative of ln e by the flight after each bounce …
+    pub ln_stretch: Vec<f64>,
+    /// … and how that depends on each fitted parameter.
+    pub stretching: Vec<[f64; MOST]>,
     /// Mean ln of the speed of arrival, as a flight without air of so many seconds has it: `ln(2v/g)`.
     pub mean_ln_speed: f64,
 }
@@ -95,36 +102,51 @@ impl Bounces {
                 after.ln_leaving - before.ln_landing + moved
             })
             .collect();
-        let mut columns = vec![vec![1.0; slopes.len()]];
-        let mut stretching = vec![vec![0.0; slopes.len()]];
-        if terms.contact.is_some() {
-            // A longer contact means shorter flights: D stays, T = D − C.
-            columns.push(
-                pairs()
-                    .map(|(b, a)| a.leaving_slope - b.landing_slope)
-                    .collect(),
-            );
-            stretching.push(pairs().map(|(_, a)| a.leaving_slope).collect());
-        }
-        if terms.drag.is_some() {
-            columns.push(
-                pairs()
-                    .map(|(b, a)| b.landing_by_drag - a.leaving_by_drag)
-                    .collect(),
-            );
-            // τ·d(ln a)/dτ = 1 + K·T²/8 + …, and ln u(T) = ln T + K·T²/16 + …
-            stretching.push(pairs().map(|(_, a)| 2.0 * a.leaving_by_drag).collect());
-        }
-        if terms.speed.is_some() {
-            columns.push(speeds.iter().map(|s| mean_ln_speed - s).collect());
-            stretching.push(vec![0.0; slopes.len()]);
-        }
+        let (design, stretching) = pairs()
+            .zip(&speeds)
+            .map(|((before, after), speed)| terms.dependence(before, after, mean_ln_speed - speed))
+            .unzip();
         Some(Self {
             ln_e,
+            ln_stretch: slopes.iter().map(|s| s[2].ln()).collect(),
             slopes,
-            columns,
+            parameters: 1 + terms.count(),
+            design,
             stretching,
             mean_ln_speed,
         })
+    }
+}
+
+impl Terms {
+    /// How many parameters are fitted beside θ.
+    fn count(&self) -> usize {
+        let terms = [self.contact, self.drag, self.speed];
+        terms.iter().filter(|t| t.is_some()).count()
+    }
+
+    /// How ln e of a bounce, and ln of its derivative by the flight after it, depend on each fitted parameter.
+    fn dependence(&self, before: &Ends, after: &Ends, slower: f64) -> ([f64; MOST], [f64; MOST]) {
+        // A longer contact means shorter flights: D stays, T = D − C.
+        let contact = (
+            after.leaving_slope - before.landing_slope,
+            after.leaving_slope,
+        );
+        // τ·d(ln a)/dτ = 1 + K·T²/8 + …, and ln u(T) = ln T + K·T²/16 + …
+        let drag = (
+            before.landing_by_drag - after.leaving_by_drag,
+            2.0 * after.leaving_by_drag,
+        );
+        let fitted = [
+            Some((1.0, 0.0)),
+            self.contact.map(|_| contact),
+            self.drag.map(|_| drag),
+            self.speed.map(|_| (slower, 0.0)),
+        ];
+        let (mut design, mut stretching) = ([0.0; MOST], [0.0; MOST]);
+        for (i, term) in fitted.into_iter().flatten().enumerate() {
+            (design[i], stretching[i]) = term;
+        }
+        (design, stretching)
     }
 }

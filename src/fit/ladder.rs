@@ -2,7 +2,7 @@
 
 use super::bounces::{Known, Terms};
 use super::flights::Impact;
-use super::model::{Fit, fit};
+use super::model::{Fit, Fitted};
 
 /// Which rung to take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
@@ -117,38 +117,40 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         // What is known is in every rung.
         Choice::Constant | Choice::Contact | Choice::Drag => rung.name == "constant",
     };
-    let fits: Vec<(&Rung, Fit)> = RUNGS
+    let fits: Vec<(&Rung, Fitted<'_>)> = RUNGS
         .iter()
         .filter(|r| wanted(r))
         .filter(|r| is_fitted(r, inputs))
-        .filter_map(|r| Some((r, fit(impacts, &terms(r, inputs))?)))
+        .filter_map(|r| Some((r, Fitted::new(impacts, &terms(r, inputs))?)))
         .collect();
-    let lowest = fits.first()?.1.ln_evidence;
+    let lowest = fits.first()?.1.ln_evidence();
+    let gain = |i: usize| fits[i].1.ln_evidence() - lowest;
     let mut best = 0;
-    for (i, (_, fit)) in fits.iter().enumerate() {
+    for (i, (rung, _)) in fits.iter().enumerate() {
         // Two parameters have to earn twice as much as one.
-        let dearer = parameters(fits[i].0) - parameters(fits[best].0);
-        if fit.ln_evidence > fits[best].1.ln_evidence + WORTH * dearer.max(0.0) {
+        let dearer = parameters(rung) - parameters(fits[best].0);
+        if gain(i) > gain(best) + WORTH * dearer.max(0.0) {
             best = i;
         }
     }
     let candidates = fits
         .iter()
-        .map(|(rung, fit)| Candidate {
+        .enumerate()
+        .map(|(i, (rung, fit))| Candidate {
             model: rung.name,
-            gain_nats: fit.ln_evidence - lowest,
-            restitution: fit.ln_restitution.value.exp(),
+            gain_nats: gain(i),
+            restitution: fit.ln_restitution().exp(),
         })
         .collect();
-    let rival =
-        |rung: &Rung| (rung.drag != fits[best].0.drag) && (rung.speed != fits[best].0.speed);
-    let alike = fits
-        .iter()
-        .find(|(r, f)| rival(r) && (f.ln_evidence - fits[best].1.ln_evidence).abs() < ALIKE)
-        .map(|(r, _)| r.name);
+    let selected = fits[best].0;
+    let rival = |rung: &Rung| rung.drag != selected.drag && rung.speed != selected.speed;
+    let alike = (0..fits.len())
+        .find(|&i| rival(fits[i].0) && (gain(i) - gain(best)).abs() < ALIKE)
+        .map(|i| fits[i].0.name);
+    let (_, fit) = fits.into_iter().nth(best)?;
     Some(Climb {
-        selected: fits[best].0.name,
-        fit: fits[best].1.clone(),
+        selected: selected.name,
+        fit: fit.summary(),
         candidates,
         alike,
     })

@@ -2,12 +2,9 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::bounces::Bounces;
+use super::bounces::{Bounces, MOST};
 use super::noise::{Noise, Sizes};
 use crate::units::real;
-
-/// Most parameters a model has: θ, C, K and p.
-const MOST: usize = 4;
 
 /// Precision and precision-weighted centre of a parameter before the data, as far as it lies from its trial value.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -16,6 +13,8 @@ pub(super) struct Prior {
     pub centre: f64,
     /// It cannot be less than this.
     pub least: f64,
+    /// How likely it was beforehand, by precision and centre alone, not to be less.
+    allowed: f64,
 }
 
 impl Prior {
@@ -24,17 +23,26 @@ impl Prior {
         precision: 0.0,
         centre: 0.0,
         least: f64::NEG_INFINITY,
+        allowed: 1.0,
     };
+
+    /// A normal distribution, of which what is less than `least` is cut off.
+    pub(super) fn new(centre: f64, std: f64, least: f64) -> Self {
+        Self {
+            precision: std.powi(-2),
+            centre,
+            least,
+            allowed: Normal::standard().cdf((centre - least) / std),
+        }
+    }
 
     /// ln of how much likelier it became by the data that the parameter is not less than its least value.
     fn ln_allowed(&self, value: f64, variance: f64) -> f64 {
         if self.least == f64::NEG_INFINITY {
             return 0.0;
         }
-        let normal = Normal::standard();
-        let after = normal.cdf((value - self.least) / variance.sqrt());
-        let before = normal.cdf((self.centre - self.least) * self.precision.sqrt());
-        (after.max(f64::MIN_POSITIVE) / before).ln()
+        let after = Normal::standard().cdf((value - self.least) / variance.sqrt());
+        (after.max(f64::MIN_POSITIVE) / self.allowed).ln()
     }
 }
 
@@ -43,8 +51,8 @@ impl Prior {
 pub(super) struct Solution {
     /// ln of the restricted likelihood: θ and what else is fitted are integrated out.
     pub ln_likelihood: f64,
-    /// Parameters, θ first.
-    pub values: Vec<f64>,
+    /// Parameters, θ first; 0 past the last.
+    pub values: [f64; MOST],
     /// Their covariance.
     pub covariance: [[f64; MOST]; MOST],
 }
@@ -68,37 +76,47 @@ pub(super) fn solve(
     sizes: Sizes,
     priors: &[Prior],
 ) -> Option<Solution> {
+    match bounces.parameters {
+        1 => solve_columns::<2>(bounces, noise, sizes, priors),
+        2 => solve_columns::<3>(bounces, noise, sizes, priors),
+        3 => solve_columns::<4>(bounces, noise, sizes, priors),
+        _ => solve_columns::<COLUMNS>(bounces, noise, sizes, priors),
+    }
+}
+
+/// The columns of the design and, last, the observations.
+const COLUMNS: usize = MOST + 1;
+
+/// [`solve`] with so many columns: known beforehand, they stay in the machine's registers.
+fn solve_columns<const N: usize>(
+    bounces: &Bounces,
+    noise: &Noise,
+    sizes: Sizes,
+    priors: &[Prior],
+) -> Option<Solution> {
     let factors = noise.factors(sizes)?;
-    let own: Vec<f64> = noise.own_shares(sizes).collect();
-    let white: Vec<Vec<f64>> = bounces
-        .columns
-        .iter()
-        .map(|c| factors.whitened(c))
-        .collect();
-    let z = factors.whitened(&bounces.ln_e);
-    let count = white.len();
-    let mut normal = [[0.0; MOST]; MOST];
-    let (mut right, mut pull) = ([0.0; MOST], [0.0; MOST]);
-    for i in 0..count {
-        for j in 0..=i {
-            normal[i][j] = dot(&white[i], &white[j]);
-            normal[j][i] = normal[i][j];
-        }
-        normal[i][i] += priors[i].precision;
-        pull[i] = dot(&bounces.stretching[i], &own);
-        right[i] = dot(&white[i], &z) + priors[i].precision * priors[i].centre + pull[i];
+    let rows = bounces.design.iter().zip(&bounces.ln_e);
+    let count = N - 1;
+    let white = factors.forward(rows.map(|(row, &z)| {
+        let mut columns = [z; N];
+        columns[..count].copy_from_slice(&row[..count]);
+        columns
+    }));
+    let products = products(&white, factors.precisions());
+    let density = Density::of(bounces, noise, sizes);
+    let (mut normal, mut right) = ([[0.0; MOST]; MOST], [0.0; MOST]);
+    for (i, prior) in priors.iter().enumerate().take(count) {
+        normal[i][..count].copy_from_slice(&products[i][..count]);
+        normal[i][i] += prior.precision;
+        right[i] = products[i][count] + prior.precision * prior.centre + density.pull[i];
     }
     let (covariance, ln_determinant) = inverse(&normal, count)?;
-    let values: Vec<f64> = (0..count)
-        .map(|i| (0..count).map(|j| covariance[i][j] * right[j]).sum())
-        .collect();
+    let values: [f64; MOST] = std::array::from_fn(|i| dot(&covariance[i], &right));
     let mut misfit: f64 = 0.0;
-    for (k, z) in z.iter().enumerate() {
-        let explained: f64 = white.iter().zip(&values).map(|(w, b)| w[k] * b).sum();
-        misfit += (z - explained).powi(2);
+    for (row, precision) in white.iter().zip(factors.precisions()) {
+        let explained: f64 = row[..count].iter().zip(&values).map(|(w, b)| w * b).sum();
+        misfit += precision * (row[count] - explained).powi(2);
     }
-    let slopes = bounces.slopes.iter().zip(&own);
-    let density = slopes.map(|(s, own)| own * s[2].ln()).sum::<f64>() + dot(&values, &pull);
     let mut ln_prior = 0.0;
     for (value, prior) in values.iter().zip(priors).filter(|(_, p)| p.precision > 0.0) {
         misfit += prior.precision * (value - prior.centre).powi(2);
@@ -107,18 +125,58 @@ pub(super) fn solve(
     let allowed: f64 = (0..count)
         .map(|i| priors[i].ln_allowed(values[i], covariance[i][i]))
         .sum();
-    let constant = real(z.len().saturating_sub(1)) * std::f64::consts::TAU.ln();
+    let constant = real(white.len().saturating_sub(1)) * std::f64::consts::TAU.ln();
     Some(Solution {
         ln_likelihood: -0.5
             * (factors.ln_determinant() + ln_determinant - ln_prior + misfit + constant)
-            + density
+            + density.ln
+            + dot(&values, &density.pull)
             + allowed,
         values,
         covariance,
     })
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// `Σ w·xᵢ·xⱼ` of all pairs of columns.
+fn products<const N: usize>(
+    rows: &[[f64; N]],
+    weights: impl Iterator<Item = f64>,
+) -> [[f64; N]; N] {
+    let mut products = [[0.0; N]; N];
+    for (row, weight) in rows.iter().zip(weights) {
+        for (sums, x) in products.iter_mut().zip(row) {
+            for (sum, y) in sums.iter_mut().zip(row) {
+                *sum += weight * x * y;
+            }
+        }
+    }
+    products
+}
+
+/// `Σ ρ_j·ln ∂z_j/∂D_j` at the trial, and its slope by each parameter.
+struct Density {
+    ln: f64,
+    pull: [f64; MOST],
+}
+
+impl Density {
+    fn of(bounces: &Bounces, noise: &Noise, sizes: Sizes) -> Self {
+        let mut density = Self {
+            ln: 0.0,
+            pull: [0.0; MOST],
+        };
+        let stretches = bounces.ln_stretch.iter().zip(&bounces.stretching);
+        for (own, (ln, stretching)) in noise.own_shares(sizes).zip(stretches) {
+            density.ln += own * ln;
+            for (pull, s) in density.pull.iter_mut().zip(stretching) {
+                *pull += own * s;
+            }
+        }
+        density
+    }
+}
+
+fn dot(a: &[f64; MOST], b: &[f64; MOST]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
@@ -126,8 +184,8 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 fn inverse(matrix: &[[f64; MOST]; MOST], count: usize) -> Option<([[f64; MOST]; MOST], f64)> {
     let (mut left, mut right) = (*matrix, [[0.0; MOST]; MOST]);
     // Columns differ by orders of magnitude (seconds, s⁻²): scaled to a unit diagonal nothing is lost.
-    let scales: Vec<f64> = (0..count).map(|i| matrix[i][i].sqrt()).collect();
-    if scales.iter().any(|s| !(*s > 0.0 && s.is_finite())) {
+    let scales: [f64; MOST] = std::array::from_fn(|i| matrix[i][i].sqrt());
+    if scales[..count].iter().any(|s| !(*s > 0.0 && s.is_finite())) {
         return None;
     }
     let mut ln_determinant = 0.0;

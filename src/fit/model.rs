@@ -75,24 +75,94 @@ pub struct Budget {
 /// away.
 #[must_use]
 pub fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
-    if impacts.len() < FEWEST {
-        return None;
+    Some(Fitted::new(impacts, terms)?.summary())
+}
+
+/// A model fitted, of which intervals and budget are not taken yet: they cost, and of models compared one is told.
+#[derive(Debug)]
+pub(super) struct Fitted<'a> {
+    state: State<'a>,
+    bounces: Bounces,
+    noise: Noise,
+    priors: Vec<Prior>,
+    posterior: Posterior,
+    strays: Strays,
+}
+
+impl<'a> Fitted<'a> {
+    pub(super) fn new(impacts: &'a [Impact], terms: &Terms) -> Option<Self> {
+        if impacts.len() < FEWEST {
+            return None;
+        }
+        let mut state = State::new(impacts, terms);
+        state.settle()?;
+        let strays = stray::find(&mut state)?;
+        let bounces = state.bounces()?;
+        let noise = state.noise(&bounces);
+        let priors = state.priors();
+        Some(Self {
+            posterior: Posterior::over_noise(&bounces, &noise, &priors)?,
+            state,
+            bounces,
+            noise,
+            priors,
+            strays,
+        })
     }
-    let mut state = State::new(impacts, terms);
-    state.settle()?;
-    let strays = stray::find(&mut state)?;
-    let bounces = state.bounces()?;
-    let noise = state.noise(&bounces);
-    let priors = state.priors();
-    let posterior = Posterior::over_noise(&bounces, &noise, &priors)?;
-    Some(state.summary(&bounces, &noise, &priors, &posterior, strays))
+
+    /// ln of the evidence for the model.
+    pub(super) const fn ln_evidence(&self) -> f64 {
+        self.posterior.ln_evidence
+    }
+
+    /// The mean of ln e.
+    pub(super) fn ln_restitution(&self) -> f64 {
+        self.posterior.moments(0).0
+    }
+
+    pub(super) fn summary(self) -> Fit {
+        let (values, terms) = (self.state.values, self.state.terms);
+        let mut index = 0;
+        let mut next = |known: Option<Known>, offset: f64| {
+            known.map(|_| {
+                index += 1;
+                self.parameter(index, offset)
+            })
+        };
+        Fit {
+            contact_s: next(terms.contact, values.contact_s),
+            drag_per_s2: next(terms.drag, values.drag_per_s2),
+            exponent: next(terms.speed, 0.0),
+            ln_restitution: self.parameter(0, 0.0),
+            bounce_std: self.posterior.mean_of(|n, _| n.bounce),
+            timing_scale: self.posterior.mean_of(|n, _| n.timing),
+            mean_speed_s: self.bounces.mean_ln_speed.exp(),
+            ln_evidence: self.ln_evidence(),
+            budget: budget(&self.bounces, &self.noise, &self.priors, &self.posterior),
+            strays: self.strays,
+        }
+    }
+
+    /// A parameter by its number, counted from this offset.
+    fn parameter(&self, index: usize, offset: f64) -> Parameter {
+        let known = self.state.impacts.len() > FEWEST;
+        let (mean, std) = self.posterior.moments(index);
+        // What cannot be negative is not said to be, though a normal distribution reaches there.
+        let least = self.priors[index].least;
+        let quantile = |p| offset + self.posterior.quantile(index, p).max(least);
+        Parameter {
+            value: offset + mean.max(least),
+            std: known.then_some(std),
+            interval95: known.then(|| [quantile(0.025), quantile(0.975)]),
+        }
+    }
 }
 
 /// A trial of times and parameters.
 #[derive(Debug, Clone)]
 pub(super) struct State<'a> {
     impacts: &'a [Impact],
-    terms: &'a Terms,
+    terms: Terms,
     trial_s: Vec<f64>,
     /// The shorter flight next to each impact, in seconds.
     shorter: Vec<f64>,
@@ -104,7 +174,7 @@ pub(super) struct State<'a> {
 }
 
 impl<'a> State<'a> {
-    fn new(impacts: &'a [Impact], terms: &'a Terms) -> Self {
+    fn new(impacts: &'a [Impact], terms: &Terms) -> Self {
         let trial_s: Vec<f64> = impacts.iter().map(|i| i.time_s).collect();
         let shorter: Vec<f64> = (0..impacts.len())
             .map(|k| shorter_flight(&trial_s, k))
@@ -122,7 +192,7 @@ impl<'a> State<'a> {
         let centre = |known: Option<Known>| known.map_or(0.0, |k| k.value);
         let mut state = Self {
             impacts,
-            terms,
+            terms: *terms,
             trial_s,
             shorter,
             values: Values::default(),
@@ -148,7 +218,7 @@ impl<'a> State<'a> {
     }
 
     pub(super) fn bounces(&self) -> Option<Bounces> {
-        Bounces::around(&self.trial_s, self.impacts, self.terms, self.values)
+        Bounces::around(&self.trial_s, self.impacts, &self.terms, self.values)
     }
 
     pub(super) fn noise(&self, bounces: &Bounces) -> Noise {
@@ -163,11 +233,7 @@ impl<'a> State<'a> {
             (self.terms.drag, self.values.drag_per_s2, 0.0),
             (self.terms.speed, 0.0, f64::NEG_INFINITY),
         ] {
-            priors.extend(known.map(|k| Prior {
-                precision: k.std.powi(-2),
-                centre: k.value - trial,
-                least: least - trial,
-            }));
+            priors.extend(known.map(|k| Prior::new(k.value - trial, k.std, least - trial)));
         }
         priors
     }
@@ -227,47 +293,6 @@ impl<'a> State<'a> {
                 .max((self.values.drag_per_s2 - before.drag_per_s2).abs()),
         )
     }
-
-    fn summary(
-        &self,
-        bounces: &Bounces,
-        noise: &Noise,
-        priors: &[Prior],
-        posterior: &Posterior,
-        strays: Strays,
-    ) -> Fit {
-        let known = self.impacts.len() > FEWEST;
-        let parameter = |index: usize, offset: f64| {
-            let (mean, std) = posterior.moments(index);
-            // What cannot be negative is not said to be, though a normal distribution reaches there.
-            let least = priors[index].least;
-            let quantile = |p| offset + posterior.quantile(index, p).max(least);
-            Parameter {
-                value: offset + mean.max(least),
-                std: known.then_some(std),
-                interval95: known.then(|| [quantile(0.025), quantile(0.975)]),
-            }
-        };
-        let mut index = 0;
-        let mut next = |known: Option<Known>, offset: f64| {
-            known.map(|_| {
-                index += 1;
-                parameter(index, offset)
-            })
-        };
-        Fit {
-            ln_restitution: parameter(0, 0.0),
-            contact_s: next(self.terms.contact, self.values.contact_s),
-            drag_per_s2: next(self.terms.drag, self.values.drag_per_s2),
-            exponent: next(self.terms.speed, 0.0),
-            bounce_std: posterior.mean_of(|n, _| n.bounce),
-            timing_scale: posterior.mean_of(|n, _| n.timing),
-            mean_speed_s: bounces.mean_ln_speed.exp(),
-            ln_evidence: posterior.ln_evidence,
-            budget: budget(bounces, noise, priors, posterior),
-            strays,
-        }
-    }
 }
 
 /// Times are not taken to be better than this, in seconds: a hundredth of a sample at 192 kHz.
@@ -288,10 +313,9 @@ pub(super) fn pulls(
     solution: &Solution,
 ) -> Option<Vec<f64>> {
     let mut left = bounces.ln_e.clone();
-    for (column, value) in bounces.columns.iter().zip(&solution.values) {
-        for (l, x) in left.iter_mut().zip(column) {
-            *l -= value * x;
-        }
+    for (left, row) in left.iter_mut().zip(&bounces.design) {
+        let explained = row.iter().zip(&solution.values).map(|(x, b)| x * b);
+        *left -= explained.sum::<f64>();
     }
     Some(noise.factors(sizes)?.solve(&left))
 }
@@ -313,21 +337,16 @@ fn budget(bounces: &Bounces, noise: &Noise, priors: &[Prior], posterior: &Poster
         let pairs = s.covariance[0].iter().zip(priors);
         pairs.map(|(v, p)| v * v * p.precision).sum()
     });
-    let share = |of: fn(Sizes, (f64, f64)) -> f64| {
-        posterior.mean_of(|sizes, s| {
-            let mut target = vec![0.0; bounces.ln_e.len()];
-            for (column, v) in bounces.columns.iter().zip(&s.covariance[0]) {
-                for (t, x) in target.iter_mut().zip(column) {
-                    *t += v * x;
-                }
-            }
-            noise
-                .factors(sizes)
-                .map_or(0.0, |f| of(sizes, noise.shares(&f.solve(&target))))
-        })
-    };
-    let timing = share(|sizes, (timing, _)| sizes.timing.powi(2) * timing);
-    let bounce = share(|sizes, (_, own)| sizes.bounce.powi(2) * own);
+    let (timing, bounce) = posterior.mean_of_two(|sizes, s| {
+        let rows = bounces.design.iter();
+        let target: Vec<f64> = rows
+            .map(|row| row.iter().zip(&s.covariance[0]).map(|(x, v)| x * v).sum())
+            .collect();
+        let (timing, own) = noise
+            .factors(sizes)
+            .map_or((0.0, 0.0), |f| noise.shares(&f.solve(&target)));
+        (sizes.timing.powi(2) * timing, sizes.bounce.powi(2) * own)
+    });
     let noise_sizes = posterior.mean_of(|_, s| (s.values[0] - mean).powi(2));
     let total = timing + bounce + inputs + noise_sizes;
     Budget {

@@ -37,54 +37,46 @@ impl Noise {
                 .map(|k| slopes[i][k] * slopes[i + step][k - step] * time_variances[i + k])
                 .sum()
         };
-        let diagonal = |step: usize| {
-            (0..slopes.len().saturating_sub(step))
-                .map(|i| shared(i, step))
-                .collect()
-        };
+        let with = |i: usize, step: usize| i.checked_sub(step).map_or(0.0, |j| shared(j, step));
+        let rows = (0..slopes.len()).map(|i| std::array::from_fn(|step| with(i, step)));
         Self {
             timing: Banded {
-                main: diagonal(0),
-                first: diagonal(1),
-                second: diagonal(2),
+                rows: rows.collect(),
             },
             wildness,
         }
     }
 
     /// Variance of ln e of each bounce by the times alone.
-    pub(super) fn timing_variances(&self) -> &[f64] {
-        &self.timing.main
+    pub(super) fn timing_variances(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+        self.timing.rows.iter().map(|row| row[0])
     }
 
     /// The share of the variance of each bounce that is its own and not that of the times.
     pub(super) fn own_shares(&self, sizes: Sizes) -> impl Iterator<Item = f64> + '_ {
         let (own, scale) = (sizes.bounce.powi(2), sizes.timing.powi(2));
-        let pairs = self.timing.main.iter().zip(&self.wildness);
+        let pairs = self.timing_variances().zip(&self.wildness);
         pairs.map(move |(t, w)| own * w / (own * w + scale * t))
     }
 
     /// The factors of Σ; none where it is singular in the precision at hand.
     pub(super) fn factors(&self, sizes: Sizes) -> Option<Factors> {
         let (own, scale) = (sizes.bounce.powi(2), sizes.timing.powi(2));
-        let scaled = |d: &[f64]| d.iter().map(|x| scale * x).collect();
-        let main = self.timing.main.iter().zip(&self.wildness);
-        Banded {
-            main: main.map(|(t, w)| scale * t + own * w).collect(),
-            first: scaled(&self.timing.first),
-            second: scaled(&self.timing.second),
-        }
-        .factors()
+        let rows = self.timing.rows.iter().zip(&self.wildness);
+        Factors::of(rows.map(|([main, first, second], w)| {
+            [scale * main + own * w, scale * first, scale * second]
+        }))
     }
 
     /// `aᵀ·A·diag(s²)·Aᵀ·a` and `aᵀ·diag(w)·a`: what the noises of unit size make of a weighted sum of ln e.
     pub(super) fn shares(&self, weights: &[f64]) -> (f64, f64) {
-        let product = |d: &[f64], step: usize| -> f64 {
-            let pairs = weights.iter().zip(&weights[step.min(weights.len())..]);
-            pairs.zip(d).map(|((a, b), x)| a * b * x).sum()
+        let row = |(i, row): (usize, &[f64; 3])| -> f64 {
+            // What is beside the main diagonal stands on both sides of it.
+            let beside =
+                (1..=2).filter_map(|step| Some(2.0 * row[step] * weights[i.checked_sub(step)?]));
+            weights[i] * (row[0] * weights[i] + beside.sum::<f64>())
         };
-        let timing = product(&self.timing.main, 0)
-            + 2.0 * (product(&self.timing.first, 1) + product(&self.timing.second, 2));
+        let timing = self.timing.rows.iter().enumerate().map(row).sum();
         let own = weights.iter().zip(&self.wildness).map(|(a, w)| a * a * w);
         (timing, own.sum())
     }

@@ -26,7 +26,7 @@ const HERMITE: [(f64, f64); 3] = [
 ];
 
 /// Mixture of the solutions at all sizes of the noises, each by its share of the evidence.
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(super) struct Posterior {
     parts: Vec<(f64, Sizes, Solution)>,
     /// ln of the evidence for the model.
@@ -55,12 +55,11 @@ impl Posterior {
             let prior = (sizes.bounce.powi(2) / (sizes.bounce.powi(2) + floor.powi(2))).ln();
             Some((solution.ln_likelihood + prior, sizes, solution))
         };
-        let (from, to) = range(|ln_bounce| at(ln_bounce, 1.0).map(|p| p.0))?;
-        let step = (to - from) / real(FINE - 1);
+        let (range, _) = range(|ln_bounce| Some((at(ln_bounce, 1.0)?.0, ())))?;
         let mut parts: Vec<(f64, Sizes, Solution)> = Vec::with_capacity(FINE * HERMITE.len());
         for k in 0..FINE {
             for (node, weight) in HERMITE {
-                let part = at(from + real(k) * step, (TIMING_DOUBT * node).exp());
+                let part = at(range.at(k), (TIMING_DOUBT * node).exp());
                 parts.extend(part.map(|(ln, sizes, s)| (ln + weight.ln(), sizes, s)));
             }
         }
@@ -73,7 +72,7 @@ impl Posterior {
         parts.iter_mut().for_each(|p| p.0 /= total);
         (total > 0.0).then(|| Self {
             parts,
-            ln_evidence: best + (total * step).ln(),
+            ln_evidence: best + (total * range.step).ln(),
         })
     }
 
@@ -89,6 +88,12 @@ impl Posterior {
     /// Mean of something over the mixture.
     pub(super) fn mean_of(&self, of: impl Fn(Sizes, &Solution) -> f64) -> f64 {
         self.parts.iter().map(|(w, n, s)| w * of(*n, s)).sum()
+    }
+
+    /// Means of two things that are found together.
+    pub(super) fn mean_of_two(&self, of: impl Fn(Sizes, &Solution) -> (f64, f64)) -> (f64, f64) {
+        let parts = self.parts.iter().map(|(w, n, s)| (w, of(*n, s)));
+        parts.fold((0.0, 0.0), |(a, b), (w, (x, y))| (a + w * x, b + w * y))
     }
 
     /// The value below which a parameter lies with this probability.
@@ -125,12 +130,11 @@ pub(super) fn likeliest(
             bounce: ln_bounce.exp(),
             timing: 1.0,
         };
-        Some((sizes, solve(bounces, noise, sizes, priors)?))
+        let solution = solve(bounces, noise, sizes, priors)?;
+        Some((solution.ln_likelihood, (sizes, solution)))
     };
-    let (from, to) = range(|ln_bounce| at(ln_bounce).map(|p| p.1.ln_likelihood))?;
-    let step = (to - from) / real(FINE - 1);
-    let parts = (0..FINE).filter_map(|k| at(from + real(k) * step));
-    parts.max_by(|a, b| a.1.ln_likelihood.total_cmp(&b.1.ln_likelihood))
+    let (range, top) = range(at)?;
+    Some(range.hill(top, 0.0, at)?.top.2)
 }
 
 /// Forty standard deviations halved this often leave a millionth of one.
@@ -139,27 +143,118 @@ const BISECTIONS: usize = 26;
 /// τ: the harmonic mean of the timing variances, as a standard deviation.
 fn floor(noise: &Noise) -> f64 {
     let variances = noise.timing_variances();
-    let precision: f64 = variances.iter().map(|v| 1.0 / v).sum();
-    (real(variances.len()) / precision).sqrt()
+    let count = real(variances.len());
+    (count / variances.map(|v| 1.0 / v).sum::<f64>()).sqrt()
 }
 
-/// The part of the range of `ln σ_e` that matters.
-fn range(ln_density: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
+/// The part of the range of `ln σ_e` that matters, in fine steps, and about where in it the density is greatest.
+fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)> {
     let (first, last) = (BOUNCE.0.ln(), BOUNCE.1.ln());
     let (mut from, mut to) = (first, last);
+    let mut top = first + COMMON * (last - first);
     for _ in 0..NARROWINGS {
-        let step = (to - from) / real(COARSE - 1);
-        let values: Vec<(f64, f64)> = (0..COARSE)
-            .filter_map(|k| {
-                let ln_bounce = from + real(k) * step;
-                Some((ln_bounce, ln_density(ln_bounce)?))
-            })
-            .collect();
-        let best = values.iter().map(|v| v.1).fold(f64::NEG_INFINITY, f64::max);
-        let mut inside = values.iter().filter(|v| v.1 > best - NEGLIGIBLE);
-        let lowest = inside.next()?.0;
-        let highest = inside.next_back().map_or(lowest, |v| v.0);
-        (from, to) = ((lowest - step).max(first), (highest + step).min(last));
+        let grid = Grid::new(from, to, COARSE);
+        let hill = grid.hill(top, NEGLIGIBLE, &ln_density)?;
+        top = hill.top.0;
+        from = (hill.lowest - grid.step).max(first);
+        to = (hill.highest + grid.step).min(last);
     }
-    Some((from, to))
+    Some((Grid::new(from, to, FINE), top))
+}
+
+/// Where in the range of `ln σ_e` most balls are: at half a per cent.
+const COMMON: f64 = 0.67;
+
+/// Evenly spaced places.
+#[derive(Debug, Clone, Copy)]
+struct Grid {
+    from: f64,
+    step: f64,
+    count: usize,
+}
+
+/// What is not negligible of a function with one top.
+#[derive(Debug)]
+struct Hill<T> {
+    /// Place, value, and what was found there.
+    top: (f64, f64, T),
+    lowest: f64,
+    highest: f64,
+}
+
+impl Grid {
+    fn new(from: f64, to: f64, count: usize) -> Self {
+        Self {
+            from,
+            step: (to - from) / real(count - 1),
+            count,
+        }
+    }
+
+    fn at(&self, index: usize) -> f64 {
+        self.from + real(index) * self.step
+    }
+
+    /// The top of a function that rises to one and falls from it, and how far it falls by no more than `negligible`.
+    ///
+    /// It is followed from the place nearest to `start` both ways only until it is less than that: the rest of the grid
+    /// costs nothing.
+    fn hill<T>(
+        &self,
+        start: f64,
+        negligible: f64,
+        of: impl Fn(f64) -> Option<(f64, T)>,
+    ) -> Option<Hill<T>> {
+        let start = crate::units::samples_in((start - self.from) / self.step, 1.0);
+        let start = start.min(self.count - 1);
+        let mut top: Option<(f64, f64, T)> = None;
+        let mut values = Vec::with_capacity(self.count);
+        let mut falls = |index: usize| {
+            let place = self.at(index);
+            let found = of(place);
+            let value = found.as_ref().map_or(f64::NEG_INFINITY, |f| f.0);
+            values.push((place, value));
+            let highest = top.as_ref().map_or(f64::NEG_INFINITY, |t| t.1);
+            if let Some((value, found)) = found.filter(|f| f.0 > highest) {
+                top = Some((place, value, found));
+            }
+            value < highest - negligible
+        };
+        let _ = (0..=start).rev().any(&mut falls);
+        let _ = (start + 1..self.count).any(&mut falls);
+        let top = top?;
+        let inside = values.iter().filter(|v| v.1 >= top.1 - negligible);
+        let inside = inside.map(|v| v.0);
+        Some(Hill {
+            lowest: inside.clone().fold(f64::INFINITY, f64::min),
+            highest: inside.fold(f64::NEG_INFINITY, f64::max),
+            top,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hill_is_the_same_from_wherever_it_is_climbed() {
+        let grid = Grid::new(-3.0, 7.0, 101);
+        for start in [-3.0, 0.0, 2.1, 2.2, 5.0, 7.0] {
+            let hill = grid.hill(start, 1.0, |x| Some((-(x - 2.13).powi(2), ())));
+            let hill = hill.unwrap();
+            let ends = [hill.top.0, hill.lowest, hill.highest];
+            for (end, expected) in ends.into_iter().zip([2.1, 1.2, 3.1]) {
+                assert!((end - expected).abs() < 1e-9, "from {start}: {ends:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn where_there_is_no_value_is_no_hill() {
+        let grid = Grid::new(0.0, 1.0, 11);
+        let right = grid.hill(0.1, 1.0, |x| (x > 0.45).then_some((-x, ())));
+        assert!((right.unwrap().top.0 - 0.5).abs() < 1e-9);
+        assert!(grid.hill(0.1, 1.0, |_| None::<(f64, ())>).is_none());
+    }
 }

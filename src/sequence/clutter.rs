@@ -43,14 +43,17 @@ impl Explained {
         Self { events, strengths }
     }
 
-    /// How many at least as strong as this lie in a range of bins.
-    fn near(&self, strength: f64, bins: std::ops::RangeInclusive<usize>, start_s: f64) -> usize {
-        let bin = |e: &Event| bin_of(e.time_s - start_s);
-        let first = self.events.partition_point(|e| bin(e) < *bins.start());
-        let near = self.events[first..]
-            .iter()
-            .take_while(|e| bin(e) <= *bins.end());
+    /// How many at least as strong as this lie in an interval of time.
+    fn near(&self, strength: f64, from_s: f64, to_s: f64) -> usize {
+        let first = self.events.partition_point(|e| e.time_s < from_s);
+        let near = self.events[first..].iter();
+        let near = near.take_while(|e| e.time_s < to_s);
         near.filter(|e| e.strength >= strength).count()
+    }
+
+    fn contains(&self, event: &Event) -> bool {
+        let first = self.events.partition_point(|e| e.time_s < event.time_s);
+        self.events[first..].starts_with(std::slice::from_ref(event))
     }
 }
 
@@ -100,8 +103,9 @@ impl Clutter {
             (centre + REACH).min(self.bins.len() - 1),
         );
         // An event that is explained does not count anyhow; any other is not its own clutter.
-        let itself = usize::from(!explained.events.contains(event));
-        let known_near = itself + explained.near(strength, first..=last, self.start_s);
+        let itself = usize::from(!explained.contains(event));
+        let border_s = |bin: usize| self.start_s + real(bin) * BIN_S;
+        let known_near = itself + explained.near(strength, border_s(first), border_s(last + 1));
         let known = itself + at_least(&explained.strengths, strength);
         let all_near: usize = self.bins[first..=last]
             .iter()

@@ -134,8 +134,16 @@ pub fn follow_again(
     // The known impacts are no clutter to each other.
     let own: Vec<usize> = known.iter().flatten().copied().collect();
     let clearer = scene.without(&own);
-    let chains = seeds.map(|seed| Chain::new(follow(&clearer, seed)));
-    let best = chains.max_by(|a, b| a.evidence.total_cmp(&b.evidence))?;
+    let mut chains: Vec<Chain> = Vec::new();
+    for seed in seeds {
+        // A seed whose events all stand in one chain would only find it again.
+        let holds = |chain: &Chain| seed.iter().all(|&i| chain.events().any(|e| e == i));
+        if !chains.iter().any(holds) {
+            chains.push(Chain::new(follow(&clearer, seed)));
+        }
+    }
+    let better = |a: &Chain, b: &Chain| a.evidence.total_cmp(&b.evidence);
+    let best = chains.into_iter().max_by(better)?;
     Some(sharpen(&scene, best))
 }
 

@@ -46,11 +46,8 @@ pub fn read(source: impl Read) -> Result<Recording, Error> {
 
 fn whole(mut stream: Stream<impl Read>) -> Result<Recording, Error> {
     let mut channels = vec![Vec::new(); usize::from(stream.container().channels)];
-    while let Some(block) = stream.next_block()? {
-        for (samples, new) in channels.iter_mut().zip(block) {
-            samples.extend_from_slice(new);
-        }
-    }
+    let all = 0..channels.len();
+    while stream.append(&all, &mut channels)? {}
     let (sample_rate_hz, encoding) = (
         stream.container().sample_rate_hz,
         stream.container().encoding(),

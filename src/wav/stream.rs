@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::Read;
+use std::ops::Range;
 use std::path::Path;
 
 use super::container::{Container, fill};
@@ -18,8 +19,6 @@ pub struct Stream<R> {
     source: R,
     container: Container,
     bytes: Vec<u8>,
-    /// The last block, channel by channel.
-    block: Vec<Vec<f32>>,
     /// Bytes that may still come.
     left: u64,
     /// Whole frames read.
@@ -66,7 +65,6 @@ impl<R: Read> Stream<R> {
         Ok(Self {
             source,
             bytes: vec![0; (BLOCK_BYTES / frame_bytes).max(1) * frame_bytes],
-            block: vec![Vec::new(); usize::from(container.channels)],
             left: container.claimed_bytes.unwrap_or(u64::MAX),
             frames: 0,
             torn_bytes: 0,
@@ -81,13 +79,17 @@ impl<R: Read> Stream<R> {
         &self.container
     }
 
-    /// The next samples of each channel, full scale being ±1; none at the end.
+    /// Adds the next samples of some channels to those of each, full scale being ±1; false at the end.
     ///
     /// # Errors
     /// [`Error::Io`] if reading fails.
-    pub fn next_block(&mut self) -> Result<Option<&[Vec<f32>]>, Error> {
+    pub fn append(
+        &mut self,
+        channels: &Range<usize>,
+        samples: &mut [Vec<f32>],
+    ) -> Result<bool, Error> {
         if self.torn_bytes > 0 {
-            return Ok(None);
+            return Ok(false);
         }
         let wanted =
             usize::try_from(self.left).map_or(self.bytes.len(), |left| left.min(self.bytes.len()));
@@ -96,13 +98,9 @@ impl<R: Read> Stream<R> {
         self.left -= got as u64;
         self.torn_bytes = got % frame_bytes;
         self.frames += (got / frame_bytes) as u64;
-        self.block.iter_mut().for_each(Vec::clear);
         let whole = &self.bytes[..got - self.torn_bytes];
-        decode::decode(whole, &self.container, &mut self.block);
-        if self.container.kind == super::container::SampleKind::Float32 {
-            self.not_finite += decode::zero_what_is_not_finite(&mut self.block);
-        }
-        Ok((!whole.is_empty()).then_some(self.block.as_slice()))
+        self.not_finite += decode::decode(whole, &self.container, channels, samples);
+        Ok(!whole.is_empty())
     }
 
     /// What is known after the last block.

@@ -19,6 +19,8 @@ const BEFORE_S: f64 = 1.0;
 const AFTER_S: f64 = 1.5;
 /// A scene is over once nothing has risen for so long, in seconds: no flight takes as long.
 const OVER_S: f64 = 3.0;
+/// What is set aside takes at most so many times the room that it needs.
+const MOST_ASIDE: usize = 8;
 /// Audio that is held at most, in bytes over all channels: with the working memory of the analysis it stays below
 /// 64 MiB.
 const HELD_BYTES: usize = 20 << 20;
@@ -48,6 +50,8 @@ pub struct Listener {
     listened: std::ops::Range<usize>,
     /// Frames pushed so far.
     position: usize,
+    /// The audio just before what is held: [`BEFORE_S`] of it, where there was so much.
+    earlier: Vec<Vec<f32>>,
     /// The audio held, channel by channel; its first frame is `held_from`, and `judged` is where the watches stand.
     held: Vec<Vec<f32>>,
     held_from: usize,
@@ -86,6 +90,7 @@ impl Listener {
             watches: vec![Watch::new(sample_rate_hz); channels],
             listened: first..settings.end_s.map_or(usize::MAX, frames),
             position: 0,
+            earlier: vec![Vec::new(); channels],
             held: vec![Vec::new(); channels],
             held_from: first,
             judged: first,
@@ -105,25 +110,47 @@ impl Listener {
     pub fn push<C: AsRef<[f32]>>(&mut self, block: &[C]) -> Result<(), Error> {
         let length = block.first().map_or(0, |c| c.as_ref().len());
         if block.len() != self.held.len() || block.iter().any(|c| c.as_ref().len() != length) {
-            let expected = "as many as announced, all of one length";
-            return Err(Error::argument("channels", real(block.len()), expected));
+            return Err(unlike(block.len()));
         }
-        let within = |frame: usize| frame.saturating_sub(self.position).min(length);
-        let (mut from, to) = (within(self.listened.start), within(self.listened.end));
-        self.position += length;
+        // A long block is taken in by parts, so that no more than a scene of it is held.
         let unit = self.watches[0].unit();
-        while from < to {
-            let end = to.min(from + unit - self.waiting());
-            for (held, channel) in self.held.iter_mut().zip(block) {
-                held.extend_from_slice(&channel.as_ref()[from..end]);
-            }
-            from = end;
-            if self.waiting() == unit {
-                self.judge();
-                self.let_go()?;
-            }
+        for from in (0..length).step_by(unit) {
+            let part = from..length.min(from + unit);
+            self.push_with(|room| {
+                for (held, channel) in room.iter_mut().zip(block) {
+                    held.extend_from_slice(&channel.as_ref()[part.clone()]);
+                }
+            })?;
         }
         Ok(())
+    }
+
+    /// As [`push`](Self::push), for samples that `read` adds to the end of those of each channel: what is decoded to
+    /// where it is held needs no copy. It has to leave alone what is there. All that it adds is held at once.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if it adds more to one channel than to another.
+    pub fn push_with<T>(&mut self, read: impl FnOnce(&mut [Vec<f32>]) -> T) -> Result<T, Error> {
+        let before = self.held[0].len();
+        let result = read(&mut self.held);
+        let end = self.held[0].len();
+        if self.held.iter().any(|held| held.len() != end) {
+            return Err(unlike(self.held.len()));
+        }
+        let length = end - before;
+        let within = |frame: usize| frame.saturating_sub(self.position).min(length);
+        let (from, to) = (within(self.listened.start), within(self.listened.end));
+        self.position += length;
+        for held in &mut self.held {
+            held.truncate(before + to);
+            held.drain(before..(before + from).min(held.len()));
+        }
+        let unit = self.watches[0].unit();
+        while self.held_end() - self.judged >= unit {
+            self.judge(unit);
+            self.let_go()?;
+        }
+        Ok(result)
     }
 
     /// What was heard, and the channel that most of it was heard on.
@@ -136,7 +163,7 @@ impl Listener {
             let got = self.settings.start_s.unwrap_or(0.0);
             return Err(Error::argument("start", got, "a time within the recording"));
         }
-        self.judge();
+        self.judge(end - self.judged);
         if let Some(rises) = self.scene.take() {
             let after = samples_in(AFTER_S, self.sample_rate_hz);
             self.hear(rises.from, end.min(rises.last + after), false)?;
@@ -150,39 +177,42 @@ impl Listener {
         self.held_from + self.held[0].len()
     }
 
-    /// Frames that the watches have not judged yet.
-    fn waiting(&self) -> usize {
-        self.held_end() - self.judged
-    }
-
-    /// Has the watches judge what waits.
-    fn judge(&mut self) {
+    /// Has the watches judge the next frames.
+    fn judge(&mut self, frames: usize) {
         let begin = self.judged - self.held_from;
         let mut rises = false;
         for (watch, held) in self.watches.iter_mut().zip(&self.held) {
             // Every watch has to hear everything.
-            rises |= watch.rises(held, begin);
+            rises |= watch.rises(&held[begin..begin + frames]);
         }
+        let end = self.judged + frames;
         if rises {
-            let before = samples_in(BEFORE_S, self.sample_rate_hz);
-            let from = self.judged.saturating_sub(before).max(self.held_from);
-            let last = self.held_end();
-            self.scene = Some(Rises {
-                from: self.scene.map_or(from, |scene| scene.from),
-                last,
-            });
+            let from = self.scene.map_or_else(|| self.begin(), |scene| scene.from);
+            self.scene = Some(Rises { from, last: end });
         }
-        self.judged = self.held_end();
+        self.judged = end;
+    }
+
+    /// First frame of a scene in which something rises after all that was judged; what is needed of the audio before
+    /// is held from then on.
+    fn begin(&mut self) -> usize {
+        let before = samples_in(BEFORE_S, self.sample_rate_hz);
+        let missing = before.saturating_sub(self.judged - self.held_from);
+        let missing = missing.min(self.earlier[0].len());
+        for (held, earlier) in self.held.iter_mut().zip(&self.earlier) {
+            held.splice(0..0, earlier[earlier.len() - missing..].iter().copied());
+        }
+        self.held_from -= missing;
+        self.judged.saturating_sub(before).max(self.held_from)
     }
 
     /// Lets audio go that is not needed any more, after it was analyzed if it is part of a scene.
     fn let_go(&mut self) -> Result<(), Error> {
         let frames = |span_s| samples_in(span_s, self.sample_rate_hz);
         let (before, after, over) = (frames(BEFORE_S), frames(AFTER_S), frames(OVER_S));
-        let end = self.held_end();
+        let end = self.judged;
         match self.scene {
-            // Moving the margin costs as much as the audio let go: so that is done seldom.
-            None if end - self.held_from > 3 * before => self.forget(end - before),
+            None if end - self.held_from >= before => self.set_aside(),
             Some(rises) if end - rises.last >= over => {
                 self.scene = None;
                 self.hear(rises.from, rises.last + after, false)?;
@@ -199,6 +229,20 @@ impl Listener {
             _ => {}
         }
         Ok(())
+    }
+
+    /// Moves what was judged out of the way, in place of what was moved before. Buffers change places, so that silence
+    /// is not copied, and are no longer than has to be, so that they stay in the cache.
+    fn set_aside(&mut self) {
+        let judged = self.judged - self.held_from;
+        for (earlier, held) in self.earlier.iter_mut().zip(&mut self.held) {
+            std::mem::swap(earlier, held);
+            held.clear();
+            held.extend(earlier.drain(judged..));
+            // A long scene must not be room for two.
+            earlier.shrink_to(MOST_ASIDE * judged);
+        }
+        self.held_from = self.judged;
     }
 
     fn forget(&mut self, before: usize) {
@@ -223,6 +267,12 @@ impl Listener {
         self.findings.add(heard);
         Ok(settled)
     }
+}
+
+/// The channels are not what they should be, of which there are so many.
+fn unlike(channels: usize) -> Error {
+    let expected = "as many as announced, all of one length";
+    Error::argument("channels", real(channels), expected)
 }
 
 #[cfg(test)]
