@@ -5,7 +5,7 @@ use super::{Settings, Stretch, rejected, tail};
 use crate::Error;
 use crate::detect::{Candidate, Detector, clarity};
 use crate::report::Rejected;
-use crate::sequence::{self, Chain, Event, Found};
+use crate::sequence::{self, Chain, Event, Found, is_echo_of};
 use crate::units::real;
 
 /// Where a scene is in its recording.
@@ -67,14 +67,23 @@ pub(super) fn hear(
     let rejected = rejected_before(edge.settled_s, told_s, &events, &found);
     let weak = weak_before(edge.settled_s, &events, &found);
     let mut all = events.clone();
-    let mut drops = Vec::new();
-    for chain in found.drops {
-        if edge.waits(&chain) || is_told(&chain, told_s) {
-            continue;
+    let new = found.drops.into_iter();
+    let new = new.filter(|chain| !edge.waits(chain) && !is_told(chain, told_s));
+    let mut followed: Vec<Chain> = new
+        .map(|chain| tail::follow(&stretch, chain, &mut all, &settings.sequence))
+        .collect();
+    followed.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    let mut chains: Vec<Chain> = Vec::new();
+    for chain in followed {
+        if !chains.iter().any(|other| is_echo_of(&chain, other)) {
+            chains.push(chain);
         }
-        let chain = tail::follow(&stretch, chain, &mut all, &settings.sequence);
-        drops.push(drop::measure(&stretch, &chain, channel, settings)?);
     }
+    chains.sort_by(|a, b| a.span_s().0.total_cmp(&b.span_s().0));
+    let drops = chains
+        .iter()
+        .map(|chain| drop::measure(&stretch, chain, channel, settings));
+    let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
     Ok(Heard {
         drops,
         rejected,

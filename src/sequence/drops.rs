@@ -94,21 +94,51 @@ pub fn find(events: &[Event], settings: &Settings) -> Result<Found, Error> {
     }
     let clutter = Clutter::new(events);
     let scene = Scene::new(events, &clutter, settings);
-    let mut chains = chains(&scene);
-    chains.retain(|chain| is_drop(chain, settings));
-    chains.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
     let mut taken = vec![false; events.len()];
+    let mut explained = vec![false; events.len()];
     let mut drops: Vec<Chain> = Vec::new();
-    for chain in chains {
-        if chain.events().any(|i| taken[i]) || drops.iter().any(|d| reasons::is_echo_of(&chain, d))
-        {
-            continue;
+    loop {
+        let left: Vec<usize> = (0..events.len()).filter(|&i| !explained[i]).collect();
+        let found = disjoint(events, &left, &drops, settings);
+        if found.is_empty() {
+            break;
         }
-        chain.events().for_each(|i| taken[i] = true);
-        drops.push(chain);
+        for chain in found {
+            for i in chain.events() {
+                taken[i] = true;
+            }
+            for i in reasons::own_sounds(&scene, &chain) {
+                explained[i] = true;
+            }
+            drops.push(chain);
+        }
     }
     drops.sort_by(|a, b| a.span_s().0.total_cmp(&b.span_s().0));
     Ok(reasons::explain(&scene, drops, &taken))
+}
+
+/// The best chains among some of the events that share none, and are no echo of one another or of the drops known.
+fn disjoint(events: &[Event], left: &[usize], known: &[Chain], settings: &Settings) -> Vec<Chain> {
+    let some: Vec<Event> = left.iter().map(|&i| events[i]).collect();
+    let clutter = Clutter::new(&some);
+    let scene = Scene::new(&some, &clutter, settings);
+    let mut chains = chains(&scene);
+    chains.retain(|chain| is_drop(chain, settings));
+    chains.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    let mut taken = vec![false; some.len()];
+    let mut found: Vec<Chain> = Vec::new();
+    for mut chain in chains {
+        let mut before = known.iter().chain(&found);
+        if chain.events().any(|i| taken[i]) || before.any(|d| reasons::is_echo_of(&chain, d)) {
+            continue;
+        }
+        chain.events().for_each(|i| taken[i] = true);
+        for link in &mut chain.links {
+            link.event = link.event.map(|i| left[i]);
+        }
+        found.push(chain);
+    }
+    found
 }
 
 /// Follows a known chain through other events, from the three neighbouring impacts among them that earn most.

@@ -11,7 +11,7 @@ pub mod seeds;
 pub mod track;
 
 pub use drops::{Chain, Found, Link, find, follow_again};
-pub use reasons::{Reason, Rejected};
+pub use reasons::{Reason, Rejected, is_echo_of};
 
 use crate::Error;
 

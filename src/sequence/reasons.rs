@@ -46,30 +46,42 @@ const NAMED: usize = 50;
 /// A drop's rejected events are named from this share of its impacts' median strength on.
 const NOTABLE_SHARE: f64 = 0.3;
 
-/// Whether a chain is the echo of another: each of its impacts follows one of the other's at the same delay.
+/// A sound follows an impact at one delay within this share of the flight, up to this many seconds: an echo that grows
+/// slowly is found anywhere in its rise.
+const FOLLOWS_SHARE: f64 = 0.1;
+const FOLLOWS_S: f64 = 3e-3;
+
+/// Whether a chain is the echo of another, or the same again: more than half of its impacts follow one of the other's at
+/// the same delay.
 #[must_use]
 pub fn is_echo_of(chain: &Chain, direct: &Chain) -> bool {
-    let mut delays: Vec<f64> = chain
+    let mut delays: Vec<(f64, f64)> = chain
         .links
         .iter()
-        .filter_map(|l| {
-            let before = direct
-                .links
-                .partition_point(|d| d.time_s <= l.time_s)
-                .checked_sub(1)?;
-            Some(l.time_s - direct.links[before].time_s)
-        })
+        .filter_map(|l| delay_after(direct, l.time_s))
         .collect();
     if 2 * delays.len() < chain.links.len() {
         return false;
     }
-    delays.sort_by(f64::total_cmp);
-    let median = delays[delays.len() / 2];
-    let same = delays
-        .iter()
-        .filter(|&d| (d - median).abs() < DELAY_TOLERANCE_S)
-        .count();
-    median < LONGEST_DELAY_S && 2 * same > chain.links.len()
+    delays.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let median = delays[delays.len() / 2].0;
+    let same = |&&(delay, flight): &&(f64, f64)| {
+        let tolerance = (FOLLOWS_SHARE * flight).clamp(DELAY_TOLERANCE_S, FOLLOWS_S);
+        (delay - median).abs() < tolerance
+    };
+    median < LONGEST_DELAY_S && 2 * delays.iter().filter(same).count() > chain.links.len()
+}
+
+/// Seconds from the impact of a chain before a time, or just after it, and that impact's flight.
+fn delay_after(chain: &Chain, time_s: f64) -> Option<(f64, f64)> {
+    let before = chain.links.partition_point(|d| d.time_s <= time_s + NEAR_S);
+    let from = before.checked_sub(1)?;
+    let delay = time_s - chain.links[from].time_s;
+    let flight = chain
+        .links
+        .get(before)
+        .map_or(delay, |next| next.time_s - chain.links[from].time_s);
+    Some((delay, flight))
 }
 
 /// Which events a chain explains, in order: its impacts and their echoes.
@@ -91,6 +103,19 @@ pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
     explained.sort_unstable();
     explained.dedup();
     explained
+}
+
+/// Which events the sound of a chain accounts for: what it explains, and what is near one of its impacts and weaker.
+#[must_use]
+pub fn own_sounds(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
+    let mut own = explained(scene, chain);
+    for link in &chain.links {
+        let Some(event) = link.event else { continue };
+        let strength = scene.events[event].strength;
+        let near = scene.between(link.time_s - NEAR_S, link.time_s + NEAR_S);
+        own.extend(near.filter(|&i| scene.events[i].strength <= strength));
+    }
+    own
 }
 
 /// Gives every strong event that is no impact its reason.
