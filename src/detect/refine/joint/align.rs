@@ -50,7 +50,9 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
     for i in (loudest + 1..coarse.len()).chain((0..loudest).rev()) {
         let near = nearest(&aligned, i);
         let shape = mean(&impacts, &near, |p| cut(p, first));
-        let head = Template::new(shape, before);
+        let power: f64 = near.iter().map(|&j| impacts[j].amplitude.powi(2)).sum();
+        let noise = vec![1.0 / power; shape.len()];
+        let head = Template::new(shape, noise, before);
         if let Some((position, amplitude)) = matched(&sound, &impacts[i], &head, jitter) {
             impacts[i].position = position;
             impacts[i].amplitude = amplitude;
@@ -173,8 +175,9 @@ fn long_template(
     let noise = smoothed(&left, reach);
     let last = smoothed(&squares, reach)
         .iter()
-        .zip(noise)
+        .zip(&noise)
         .rposition(|(e, n)| e * power > loud * n)?;
     shape.truncate((last + reach).max(before + samples_in(SHORTEST_S, rate)));
-    Some(Template::new(shape, before))
+    let noise = noise[..shape.len()].iter().map(|n| n / power).collect();
+    Some(Template::new(shape, noise, before))
 }

@@ -21,8 +21,8 @@ const FEWEST: usize = 5;
 const FEWEST_LINEAR: usize = 8;
 const FEWEST_SQUARE: usize = 12;
 /// The beginning ends where the sound first reaches these shares of its greatest value. Both have to agree.
-const SHORTER: f64 = 0.4;
-const LONGER: f64 = 0.8;
+const SHORTER: f64 = 0.8;
+const LONGER: f64 = 1.0;
 /// Standard errors by which a drift has to differ from none, and at most two beginnings from each other.
 const SIGNIFICANT: f64 = 4.0;
 const AGREEING: f64 = 3.0;

@@ -5,6 +5,8 @@ use crate::units::real;
 
 /// The head holds this share of all that the template knows of time.
 const HEAD_SHARE: f64 = 0.98;
+/// Steps of the template count where they exceed those of its noise by this factor.
+const CLEAR: f64 = 1.5;
 /// Share of a weight matrix's trace that is added to its diagonal: where two impacts are alike in speed their
 /// components cannot be told apart.
 const RIDGE: f64 = 1e-6;
@@ -23,6 +25,8 @@ pub(super) struct Template {
     shapes: Vec<Vec<f64>>,
     /// Greatest of the smoothed squares of the mean from each sample on.
     tail: Vec<f64>,
+    /// Variance of the mean.
+    noise: Vec<f64>,
 }
 
 /// What is known of one impact's sound.
@@ -37,13 +41,14 @@ pub(super) struct Sample {
 }
 
 impl Template {
-    /// A template of one component; impacts are taken to be alike.
-    pub(super) fn new(mean: Vec<f64>, before: usize) -> Self {
+    /// A template of one component, with its variance; impacts are taken to be alike.
+    pub(super) fn new(mean: Vec<f64>, noise: Vec<f64>, before: usize) -> Self {
         let misfit = vec![0.0; mean.len()];
         let mut template = Self {
             components: vec![mean],
             misfit,
             before,
+            noise,
             ..Self::default()
         };
         template.measure(before / 8);
@@ -72,11 +77,23 @@ impl Template {
         slopes
     }
 
-    fn head_length(&self) -> usize {
-        let slopes = self.mean().windows(2).map(|w| (w[1] - w[0]).powi(2));
-        let total: f64 = slopes.clone().sum();
+    /// Samples that hold most of what the template knows of time: of its squared steps, less those that its own noise
+    /// makes (two of its variances each), where they stand out of it.
+    fn head_length(&self, smoothing: usize) -> usize {
+        let steps = self.mean().windows(2).map(|w| (w[1] - w[0]).powi(2));
+        let steps = smoothed(&steps.collect::<Vec<_>>(), smoothing);
+        let known = steps.iter().zip(&self.noise).map(|(step, noise)| {
+            let by_noise = 2.0 * noise;
+            if *step > CLEAR * by_noise {
+                step - by_noise
+            } else {
+                0.0
+            }
+        });
+        let known: Vec<f64> = known.collect();
+        let total: f64 = known.iter().sum();
         let mut sum = 0.0;
-        let held = slopes.into_iter().position(|s| {
+        let held = known.iter().position(|s| {
             sum += s;
             sum >= HEAD_SHARE * total
         });
@@ -111,6 +128,9 @@ impl Template {
             }
             self.shapes = slownesses.iter().map(|&u| self.sounding(u)).collect();
         }
+        for (noise, sum) in self.noise.iter_mut().zip(sums(&weights)) {
+            *noise = 1.0 / sum;
+        }
         let misfit = self.misfit_of(impacts, &weights);
         self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
         if length == self.len() {
@@ -127,7 +147,7 @@ impl Template {
             greatest = greatest.max(*t);
             *t = greatest;
         }
-        self.head = self.head_length();
+        self.head = self.head_length(smoothing);
     }
 
     /// `Σ_c uᶜ·S_c`.
@@ -292,7 +312,7 @@ mod tests {
                 }
             })
             .collect();
-        let mut template = Template::new(vec![0.0; 60], 10);
+        let mut template = Template::new(vec![0.0; 60], vec![0.0; 60], 10);
         template.components.push(vec![0.0; 60]);
         let slownesses: Vec<f64> = impacts.iter().map(|s| s.slowness).collect();
         template.learn(&impacts, &slownesses, 2);
