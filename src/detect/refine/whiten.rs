@@ -1,5 +1,6 @@
 //! A filter after which the noise of this recording is white, by linear prediction.
 
+use crate::detect::voice::dot;
 use crate::units::{real, samples_in};
 
 /// Coefficients of the predictor: enough to flatten the slope of a room's noise and the hum below it.
@@ -11,7 +12,7 @@ const AROUND_S: f64 = 0.5;
 /// Share of the frames that are quiet.
 const QUIET_SHARE: f64 = 0.2;
 /// White noise added before solving, as a share of the power: without it a pure hum has no inverse.
-const REGULARISATION: f64 = 1e-6;
+const REGULARISATION: f64 = 1e-9;
 /// Noise is taken to be at least this share of full scale: half a step of a 16-bit recording.
 const LEAST_NOISE: f64 = 1e-5;
 
@@ -27,23 +28,20 @@ impl Whitener {
     #[must_use]
     pub fn learn(samples: &[f32], sample_rate_hz: f64, impacts_s: &[f64]) -> Self {
         let quiet = quiet_frames(samples, sample_rate_hz, impacts_s);
-        let mut correlation = [0.0; ORDER + 1];
+        let mut products = [[0.0; ORDER + 1]; ORDER + 1];
         let mut count = 0;
         for frame in &quiet {
-            for (lag, sum) in correlation.iter_mut().enumerate() {
-                *sum += frame[lag..]
-                    .iter()
-                    .zip(*frame)
-                    .map(|(&a, &b)| f64::from(a) * f64::from(b))
-                    .sum::<f64>();
-            }
-            count += frame.len();
+            let frame: Vec<f64> = frame.iter().copied().map(f64::from).collect();
+            add_products(&frame, &mut products);
+            count += frame.len() - ORDER;
         }
-        for sum in &mut correlation {
-            *sum /= real(count.max(1));
+        let scale = 1.0 / real(count.max(1));
+        products.iter_mut().flatten().for_each(|p| *p *= scale);
+        let least = REGULARISATION * products[0][0] + LEAST_NOISE * LEAST_NOISE;
+        for (lag, row) in products.iter_mut().enumerate() {
+            row[lag] += least;
         }
-        correlation[0] = correlation[0] * (1.0 + REGULARISATION) + LEAST_NOISE * LEAST_NOISE;
-        let (predictor, error) = levinson(&correlation);
+        let (predictor, error) = predictor(&products);
         Self {
             predictor,
             scale: 1.0 / error.sqrt(),
@@ -105,27 +103,80 @@ fn quiet_frames<'a>(samples: &'a [f32], sample_rate_hz: f64, impacts_s: &[f64]) 
     frames.into_iter().map(|(_, f)| f).collect()
 }
 
-/// Levinson's recursion: the best predictor for an autocorrelation, and the variance it leaves.
-fn levinson(correlation: &[f64; ORDER + 1]) -> ([f64; ORDER], f64) {
-    let mut a = [0.0; ORDER];
-    let mut error = correlation[0];
-    for i in 0..ORDER {
-        let missing = correlation[i + 1] - (0..i).map(|k| a[k] * correlation[i - k]).sum::<f64>();
-        let reflection = missing / error;
-        let before = a;
-        a[i] = reflection;
-        for k in 0..i {
-            a[k] = before[k] - reflection * before[i - 1 - k];
-        }
-        error *= 1.0 - reflection * reflection;
+/// Adds `Σ_n x[n − i]·x[n − j]` over the samples that have their whole past in the frame.
+///
+/// From the first row the others follow along the diagonals, as the sums lose a last term and gain a first.
+fn add_products(frame: &[f64], products: &mut [[f64; ORDER + 1]; ORDER + 1]) {
+    let length = frame.len() - ORDER;
+    let mut own = [[0.0; ORDER + 1]; ORDER + 1];
+    for lag in 0..=ORDER {
+        own[0][lag] = dot(&frame[ORDER..], &frame[ORDER - lag..ORDER - lag + length]);
+        own[lag][0] = own[0][lag];
     }
-    (a, error)
+    for i in 0..ORDER {
+        for j in 0..ORDER {
+            let gained = frame[ORDER - 1 - i] * frame[ORDER - 1 - j];
+            let lost = frame[frame.len() - 1 - i] * frame[frame.len() - 1 - j];
+            own[i + 1][j + 1] = own[i][j] + gained - lost;
+        }
+    }
+    for (sum, own) in products.iter_mut().flatten().zip(own.iter().flatten()) {
+        *sum += own;
+    }
+}
+
+/// The predictor of least squares for sums of products with their lags, and the variance that it leaves.
+///
+/// Unlike the recursion for an autocorrelation it takes no sample beyond a frame for zero, so a hum whose period is
+/// longer than the frame is predicted as well as any: x[n] = Σ a_k·x[n−k] holds in every part of it.
+/// Solved by Cholesky's factors.
+fn predictor(products: &[[f64; ORDER + 1]; ORDER + 1]) -> ([f64; ORDER], f64) {
+    let mut factor = [[0.0; ORDER]; ORDER];
+    for i in 0..ORDER {
+        for j in 0..=i {
+            let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
+            let left = products[i + 1][j + 1] - known;
+            factor[i][j] = if i == j {
+                left.max(f64::MIN_POSITIVE).sqrt()
+            } else {
+                left / factor[j][j]
+            };
+        }
+    }
+    let mut a = [0.0; ORDER];
+    for i in 0..ORDER {
+        let known: f64 = (0..i).map(|k| factor[i][k] * a[k]).sum();
+        a[i] = (products[i + 1][0] - known) / factor[i][i];
+    }
+    let explained: f64 = a.iter().map(|y| y * y).sum();
+    for i in (0..ORDER).rev() {
+        let known: f64 = (i + 1..ORDER).map(|k| factor[k][i] * a[k]).sum();
+        a[i] = (a[i] - known) / factor[i][i];
+    }
+    let least = REGULARISATION * products[0][0];
+    (a, (products[0][0] - explained).max(least))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
+
+    #[test]
+    fn a_hum_longer_than_the_frames_is_taken_out() {
+        let mut rng = SplitMix64::new(5);
+        #[expect(clippy::cast_possible_truncation, reason = "test noise")]
+        let hum: Vec<f32> = (0..96_000)
+            .map(|i| {
+                let turn = std::f64::consts::TAU * 50.0 * real(i) / 48_000.0;
+                (0.1 * turn.sin() + 0.05 * (3.0 * turn + 1.0).sin() + 1e-4 * rng.normal()) as f32
+            })
+            .collect();
+        let whitener = Whitener::learn(&hum, 48_000.0, &[1.0]);
+        let white = whitener.apply(&hum, 1_000, 90_000).unwrap();
+        let power = white.iter().map(|x| x * x).sum::<f64>() / real(white.len());
+        assert!((0.7..1.5).contains(&power), "{power}");
+    }
 
     #[test]
     fn coloured_noise_comes_out_white_with_unit_variance() {
