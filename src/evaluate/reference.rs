@@ -24,6 +24,9 @@ pub struct ReferenceDrop {
     /// Least standard error of its time, in seconds.
     #[serde(default)]
     pub timing_limit_s: Vec<Option<f64>>,
+    /// Standard error that a match with the mean sound reaches at best, in seconds.
+    #[serde(default)]
+    pub timing_floor_s: Vec<Option<f64>>,
     /// Speed of each impact in m/s.
     #[serde(default)]
     pub speeds_m_per_s: Vec<f64>,
@@ -51,6 +54,7 @@ impl Reference {
             let each = drop.restitution_each.len();
             if drop.audible.len() != count
                 || !fits(drop.timing_limit_s.len())
+                || !fits(drop.timing_floor_s.len())
                 || !fits(drop.speeds_m_per_s.len())
                 || drop.restitution_nominal_each.len() != drop.speeds_m_per_s.len()
                 || !fits(each)

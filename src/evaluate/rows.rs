@@ -52,6 +52,9 @@ pub struct Row {
     pub walk_std_s_per_db: Option<f64>,
     /// √mean((error/limit)²), without cycle slips: 1 is the best that is possible.
     pub efficiency: Option<f64>,
+    /// √mean((error/floor)²), without cycle slips: 1 is the best that a match with the mean sound reaches where impacts
+    /// differ as these do.
+    pub efficiency_of_match: Option<f64>,
     /// Median of |error|/limit.
     pub efficiency_median: Option<f64>,
     /// Share of the audible impacts found that are off by half a period of their sound or more.
@@ -165,6 +168,7 @@ impl Row {
                 .collect()
         };
         let (to_limit, to_stated) = (ratios(|h| h.limit_s), ratios(|h| h.stated_s));
+        let to_floor = ratios(|h| h.floor_s);
         let to_limit_sizes: Vec<f64> = to_limit.iter().map(|r| r.abs()).collect();
         let groups: Vec<Vec<(f64, f64)>> = files.iter().map(|f| levels_and_errors(f)).collect();
         let walk = common_slope(&groups);
@@ -173,6 +177,7 @@ impl Row {
         self.walk_s_per_db = walk.map(|(slope, _)| slope);
         self.walk_std_s_per_db = walk.map(|(_, error)| error);
         self.efficiency = root_mean_square(&to_limit);
+        self.efficiency_of_match = root_mean_square(&to_floor);
         self.efficiency_median = median(&to_limit_sizes);
         self.cycle_slips = share(hits.iter().filter(|h| h.slipped).count(), hits.len());
         self.error_over_stated = root_mean_square(&to_stated);

@@ -41,6 +41,8 @@ pub struct Hit {
     pub error_s: f64,
     /// The least standard error that was possible, in seconds.
     pub limit_s: Option<f64>,
+    /// The standard error that a match with the mean sound reaches at best, in seconds.
+    pub floor_s: Option<f64>,
     /// The standard error that was stated, in seconds.
     pub stated_s: Option<f64>,
     /// Its level in dB.
@@ -104,6 +106,7 @@ struct TrueImpact {
     onset_s: f64,
     audible: bool,
     limit_s: Option<f64>,
+    floor_s: Option<f64>,
     period_s: Option<f64>,
 }
 
@@ -120,6 +123,7 @@ fn true_impacts(reference: &Reference) -> Vec<TrueImpact> {
                     onset_s,
                     audible,
                     limit_s: d.timing_limit_s.get(index).copied().flatten(),
+                    floor_s: d.timing_floor_s.get(index).copied().flatten(),
                     period_s: d.period_s,
                 }),
         );
@@ -143,6 +147,7 @@ fn hit(error_s: f64, found: &Impact, truth: &TrueImpact) -> Hit {
     Hit {
         error_s,
         limit_s: truth.limit_s,
+        floor_s: truth.floor_s,
         stated_s: found.time_std_s,
         level_db: found.level_db,
         slipped: truth

@@ -2,7 +2,7 @@
 
 use super::rows::{Evaluation, Row};
 
-const HEAD: &str = "timing       model     scene         files  recall  precis  false lost split   median    p95  limit×  slips stated×     walk   e med   e p90  cover95   audio s/s  of limit";
+const HEAD: &str = "timing       model     scene         files  recall  precis  false lost split   median    p95  limit× floor×  slips stated×     walk   e med   e p90  cover95   audio s/s  of limit";
 
 /// The table: totals first, then the scenes of each way of timing.
 #[must_use]
@@ -21,7 +21,8 @@ pub fn to_text(evaluation: &Evaluation) -> String {
 recall: share of the audible impacts that were found; precis: share of what was found that is an impact
 false: drops where none was; lost: drops not found; split: drops found in pieces
 median, p95: error of the times in microseconds, after one common offset per recording
-limit×: rms error over the least that is possible; slips: off by half a period or more; stated×: rms error over stated
+limit×: rms error over the least that is possible; floor×: over what a match with the mean sound reaches at best
+slips: off by half a period or more; stated×: rms error over stated
 walk: slope of the error against level, in microseconds per dB
 e med, e p90: error of e against the ball's own; cover95: how often the 95 % interval holds it
 "
@@ -30,7 +31,7 @@ e med, e p90: error of e against the ball's own; cover95: how often the 95 % int
 fn line(row: &Row) -> String {
     let micro = |x: Option<f64>| number(x.map(|s| 1e6 * s), 2);
     format!(
-        "{:<12} {:<9} {:<12} {:>6} {:>7} {:>7} {:>6} {:>4} {:>5} {:>8} {:>6} {:>7} {:>6} {:>7} {:>8} {:>7} {:>7} {:>8} {:>11} {:>9}\n",
+        "{:<12} {:<9} {:<12} {:>6} {:>7} {:>7} {:>6} {:>4} {:>5} {:>8} {:>6} {:>7} {:>6} {:>6} {:>7} {:>8} {:>7} {:>7} {:>8} {:>11} {:>9}\n",
         row.timing,
         row.model,
         row.scene.as_deref().unwrap_or("all"),
@@ -43,6 +44,7 @@ fn line(row: &Row) -> String {
         micro(row.timing_error_median_s),
         number(row.timing_error_p95_s.map(|s| 1e6 * s), 0),
         number(row.efficiency, 1),
+        number(row.efficiency_of_match, 1),
         number(row.cycle_slips, 3),
         number(row.error_over_stated, 1),
         number(row.walk_s_per_db.map(|s| 1e6 * s), 3),

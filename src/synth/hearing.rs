@@ -11,7 +11,12 @@
 //! ```text
 //! energy to noise = Σ (a∗s)²/σ²        σ_t⁻² = Σ (a∗ds/dt)²/σ²
 //! ```
-//! In white noise this is `σ_t = σ/√(Σ(ds/dt)²)`. Samples at full scale tell nothing and are left out.
+//! Impacts differ: each mode's level scatters by a share σ. A match with the mean sound takes that for a shift, so that
+//! its error has a floor, however it is done, unless the modes are told apart:
+//! ```text
+//! floor² = σ_t² + Σ_modes (σ·⟨m, ds/dt⟩/⟨ds/dt, ds/dt⟩)²,   ⟨x, y⟩ = ∫ X·Y*/N df, m the mode's own sound
+//! ```
+//! In white noise the limit is `σ_t = σ/√(Σ(ds/dt)²)`. Samples at full scale tell nothing and are left out.
 
 use super::ambience::autocorrelation;
 use super::sound::Rendered;
@@ -32,6 +37,8 @@ const RIDGE: f64 = 1e-9;
 pub(super) struct Heard {
     pub(super) energy_to_noise_db: f64,
     pub(super) timing_limit_s: f64,
+    /// What a match with the mean sound reaches at best, impacts being as different as they are.
+    pub(super) timing_floor_s: f64,
     /// Whether something else had driven the recorder to full scale for half of its energy.
     pub(super) lost: bool,
 }
@@ -41,6 +48,7 @@ impl Heard {
     pub(super) const NOTHING: Self = Self {
         energy_to_noise_db: f64::NEG_INFINITY,
         timing_limit_s: f64::INFINITY,
+        timing_floor_s: f64::INFINITY,
         lost: true,
     };
 
@@ -74,8 +82,17 @@ pub(super) struct Background<'a> {
     pub(super) full_scale: f64,
 }
 
+/// How an impact differs from the others.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Variety<'a> {
+    /// The sound of each mode alone.
+    pub(super) modes: &'a [Rendered],
+    /// Standard deviation of ln level of each.
+    pub(super) level_scatter: f64,
+}
+
 /// How an impact is heard whose sound begins with the first sample of the background.
-pub(super) fn hear(direct: &Rendered, background: Background<'_>) -> Heard {
+pub(super) fn hear(direct: &Rendered, variety: Variety<'_>, background: Background<'_>) -> Heard {
     let count = direct.samples_holding(SHARE).min(background.all.len());
     let (pressure, slope) = (&direct.pressure[..count], &direct.slope[..count]);
     let local: [f64; LAGS] = autocorrelation(&background.passing[..count]);
@@ -84,9 +101,18 @@ pub(super) fn hear(direct: &Rendered, background: Background<'_>) -> Heard {
     let open: Vec<bool> = (0..count)
         .map(|i| (all[i] + pressure[i]).abs() < background.full_scale)
         .collect();
+    let slope = model.whitened(slope, &open);
+    let information = product(&slope, &slope);
+    let shift = |mode: &Rendered| {
+        let own = model.whitened(&mode.pressure[..count.min(mode.pressure.len())], &open);
+        variety.level_scatter * product(&own, &slope) / information
+    };
+    let shifts: f64 = variety.modes.iter().map(|m| shift(m) * shift(m)).sum();
+    let sound = model.whitened(pressure, &open);
     Heard {
-        energy_to_noise_db: 10.0 * libm::log10(model.energy(pressure, &open)),
-        timing_limit_s: 1.0 / libm::sqrt(model.energy(slope, &open)),
+        energy_to_noise_db: 10.0 * libm::log10(product(&sound, &sound)),
+        timing_limit_s: 1.0 / libm::sqrt(information),
+        timing_floor_s: libm::sqrt(1.0 / information + shifts),
         lost: is_lost(pressure, all, background.full_scale),
     }
 }
@@ -133,16 +159,28 @@ impl Model {
         }
     }
 
-    /// Σ (a∗x)²/σ² over the open samples, x being 0 before its start.
-    fn energy(&self, samples: &[f64], open: &[bool]) -> f64 {
-        let mut sum = 0.0;
-        for (i, _) in open.iter().enumerate().filter(|(_, open)| **open) {
+    /// (a∗x)/σ at the open samples, x being 0 before its start.
+    fn whitened(&self, samples: &[f64], open: &[bool]) -> Vec<f64> {
+        let scale = 1.0 / libm::sqrt(self.variance);
+        let pairs = open.iter().enumerate().take(samples.len());
+        let at = |i: usize| {
             let past = samples[..=i].iter().rev();
-            let white: f64 = self.coefficients.iter().zip(past).map(|(a, x)| a * x).sum();
-            sum += white * white;
-        }
-        sum / self.variance
+            scale
+                * self
+                    .coefficients
+                    .iter()
+                    .zip(past)
+                    .map(|(a, x)| a * x)
+                    .sum::<f64>()
+        };
+        pairs
+            .map(|(i, &open)| if open { at(i) } else { 0.0 })
+            .collect()
     }
+}
+
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 #[cfg(test)]
@@ -169,7 +207,12 @@ mod tests {
             steady: &steady,
             full_scale,
         };
-        hear(&click(), background)
+        let direct = click();
+        let variety = Variety {
+            modes: std::slice::from_ref(&direct),
+            level_scatter: 0.1,
+        };
+        hear(&direct, variety, background)
     }
 
     fn white(level: f64) -> Vec<f64> {
@@ -185,6 +228,15 @@ mod tests {
         let heard = against(&white(0.01), 1e9);
         let limit = 0.01 / sum(&made.slope).sqrt();
         assert!((heard.timing_limit_s / limit - 1.0).abs() < 0.02);
+        // A mode that grows as a whole is not moved by it, but for where its sound begins.
+        let moved = 0.1
+            * made.pressure[..held]
+                .iter()
+                .zip(&made.slope)
+                .map(|(p, s)| p * s)
+                .sum::<f64>();
+        let floor = limit.hypot(moved / sum(&made.slope));
+        assert!((heard.timing_floor_s / floor - 1.0).abs() < 0.02);
         let ratio_db = 10.0 * (sum(&made.pressure) / 1e-4).log10();
         assert!((heard.energy_to_noise_db - ratio_db).abs() < 0.2);
     }

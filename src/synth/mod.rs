@@ -21,7 +21,7 @@ use crate::Error;
 use crate::random::SplitMix64;
 use crate::units::{real, samples_in};
 use drops::{Dropped, Strike};
-use hearing::{Background, Heard};
+use hearing::{Background, Heard, Variety};
 use recorder::Channel;
 use room::Room;
 use scene::Scene;
@@ -135,7 +135,12 @@ impl Stage<'_> {
             let direct = strike.sound.render(self.rate, onset_s, gain);
             let next = strikes.get(i + 1).map(|s| s.arrival_s + channel.delay_s);
             let until = next.map_or(self.count, |s| samples_in(s, self.rate));
-            heard.push(self.hear(&direct, until, &ambience, &steady));
+            let modes = strike.sound.modes(self.rate, onset_s, gain);
+            let variety = Variety {
+                modes: &modes,
+                level_scatter: self.scene.drops[strike.drop].level_scatter,
+            };
+            heard.push(self.hear(&direct, variety, until, &ambience, &steady));
             let passing = &mut ambience.bursts;
             direct.add_to(passing, 0, 1.0);
             room.add(&strike.sound, &direct, onset_s, gain, self.rate, passing);
@@ -147,6 +152,7 @@ impl Stage<'_> {
     fn hear(
         &self,
         direct: &Rendered,
+        variety: Variety<'_>,
         until: usize,
         ambience: &ambience::Ambience,
         steady: &[f64; hearing::LAGS],
@@ -167,7 +173,7 @@ impl Stage<'_> {
             steady,
             full_scale: self.full_scale(),
         };
-        hearing::hear(direct, background)
+        hearing::hear(direct, variety, background)
     }
 
     /// Pressure at which the recorder is at full scale.
@@ -225,6 +231,7 @@ impl Stage<'_> {
             onsets_s: within.iter().map(|(s, _)| onset_s(s)).collect(),
             energy_to_noise_db: within.iter().map(|(_, h)| h.energy_to_noise_db).collect(),
             timing_limit_s: within.iter().map(|(_, h)| h.timing_limit_s).collect(),
+            timing_floor_s: within.iter().map(|(_, h)| h.timing_floor_s).collect(),
             restitution: typical(&nominal, &audible),
             audible,
             restitution_nominal_each: nominal,

@@ -70,6 +70,16 @@ impl Sound {
         rendered
     }
 
+    /// The sound of each mode alone, as [`Sound::render`] gives their sum.
+    #[must_use]
+    pub fn modes(&self, rate: f64, onset_s: f64, gain: f64) -> Vec<Rendered> {
+        let alone = |mode: &Mode| Self::new(std::slice::from_ref(mode), self.contact_time_s);
+        let modes = self.modes.iter();
+        modes
+            .map(|m| alone(m).render(rate, onset_s, gain))
+            .collect()
+    }
+
     /// Adds one mode, `start_s` being the time of the first sample after the touch.
     fn add_mode(&self, mode: &Mode, rate: f64, start_s: f64, gain: f64, to: &mut Rendered) {
         let force = HalfSine::new(mode, self.contact_time_s);

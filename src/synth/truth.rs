@@ -34,6 +34,8 @@ pub struct DropTruth {
     pub energy_to_noise_db: Vec<f64>,
     /// Least standard error of its time that any method can reach, in seconds: see [`super::hearing`].
     pub timing_limit_s: Vec<f64>,
+    /// Standard error that a match with the mean sound reaches at best, in seconds: see [`super::hearing`].
+    pub timing_floor_s: Vec<f64>,
     /// e before scatter, at the geometric mean of the audible impacts' speeds.
     pub restitution: f64,
     /// e of each impact before scatter.
