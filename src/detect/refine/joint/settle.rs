@@ -187,7 +187,7 @@ impl Joint {
     /// stands.
     ///
     /// # Formula
-    /// `x = a·s − a·δ·ds/dt` with weights `1/noise`, solved for a and δ; σ_δ² is the entry of the inverse matrix.
+    /// `x = a·s − a·δ·ds/dt` with weights `1/noise`, solved for a and δ; `σ_δ²` is the entry of the inverse matrix.
     fn step(&mut self, i: usize) -> Sample {
         let head = self.template.head;
         let begin = self.begin(i);
