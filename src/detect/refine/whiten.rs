@@ -122,7 +122,7 @@ fn add_products(frame: &[f64], products: &mut [[f64; ORDER + 1]; ORDER + 1]) {
 /// The predictor of least squares for sums of products with their lags, and the variance that it leaves.
 ///
 /// Unlike the recursion for an autocorrelation it takes no sample beyond a frame for zero, so a hum whose period is
-/// longer than the frame is predicted as well as any: x[n] = Σ a_k·x[n−k] holds in every part of it.
+/// longer than the frame is predicted as well as any: `x[n] = Σ a_k·x[n−k]` holds in every part of it.
 /// Solved by Cholesky's factors.
 fn predictor(products: &[[f64; ORDER + 1]; ORDER + 1]) -> ([f64; ORDER], f64) {
     let mut factor = [[0.0; ORDER]; ORDER];

@@ -162,10 +162,8 @@ fn long_template(
     let mut left = vec![0.0; shape.len()];
     for &i in &of {
         let amplitude = impacts[i].amplitude;
-        for (l, (x, s)) in left
-            .iter_mut()
-            .zip(cut(impacts[i].position, length).iter().zip(&shape))
-        {
+        let sound = cut(impacts[i].position, length);
+        for ((l, x), s) in left.iter_mut().zip(&sound).zip(&shape) {
             *l += (x - amplitude * s).powi(2) / real(of.len() - 1);
         }
     }

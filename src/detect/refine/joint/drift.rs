@@ -1,17 +1,43 @@
 //! Slow impacts last longer than fast ones, and their sound with them; its beginning does not.
 
 use super::settle::Normal;
+use super::template::solve;
 use super::{Impact, Joint};
 use crate::detect::refine::interpolate::{KERNEL, shifted, slope};
 use crate::units::{real, samples_in};
 
-/// What is added to the positions so that they stand at the touch and not at a constant share of the contact.
+/// What is added to the positions so that they stand at the touch and not at a constant share of the contact:
+/// `c₁·u + c₂·u²` samples for a slowness u. A longer contact makes c₁; where components were learnt in u and u², the
+/// positions are free by as much of both, and the beginnings settle that too.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Late {
-    /// Samples for a slowness of 1.
-    pub shift: f64,
-    /// Its standard error.
-    pub std: f64,
+    terms: [f64; 2],
+    covariance: [[f64; 2]; 2],
+}
+
+impl Late {
+    /// Samples to add at a slowness.
+    pub(super) fn shift(&self, slowness: f64) -> f64 {
+        self.terms[0] * slowness + self.terms[1] * slowness * slowness
+    }
+
+    /// Standard error of that, against a slowness of 0.
+    pub(super) fn std(&self, slowness: f64) -> f64 {
+        self.std_of([slowness, slowness * slowness])
+    }
+
+    fn std_of(&self, by: [f64; 2]) -> f64 {
+        let [[a, b], [_, c]] = self.covariance;
+        (a * by[0] * by[0] + 2.0 * b * by[0] * by[1] + c * by[1] * by[1])
+            .max(0.0)
+            .sqrt()
+    }
+
+    /// From the fastest to the slowest impact: the shift and its standard error.
+    fn whole(&self, (fast, slow): (f64, f64)) -> (f64, f64) {
+        let shift = self.shift(slow) - self.shift(fast);
+        (shift, self.std_of([slow - fast, slow * slow - fast * fast]))
+    }
 }
 
 /// Contact of a solid sphere: `ΔT ∝ v^(−1/5)` (Hertz).
@@ -96,62 +122,92 @@ fn late(joint: &Joint) -> Option<Late> {
     // From where the longer beginnings stand, the shorter ones cannot be missed.
     begins.length = beginning(joint, SHORTER)?;
     let shorter = drift(joint, &begins.settled())?;
-    let agree = (shorter.shift - longer.shift).abs() < AGREEING * shorter.std.hypot(longer.std);
-    (agree && shorter.shift < -SIGNIFICANT * shorter.std).then_some(shorter)
+    let slownesses = joint.impacts.iter().map(|i| i.slowness);
+    let range = slownesses.fold((0.0_f64, 0.0_f64), |(a, b), u| (a.min(u), b.max(u)));
+    let ((long, long_std), (short, short_std)) = (longer.whole(range), shorter.whole(range));
+    let agree = (short - long).abs() < AGREEING * short_std.hypot(long_std);
+    (agree && short < -SIGNIFICANT * short_std).then_some(shorter)
 }
 
-/// The slope of "begins" less "matches" over slowness, by least squares that forgive what lies far off.
+/// "Begins" less "matches" as a function of slowness, by least squares that forgive what lies far off.
 fn drift(joint: &Joint, begins: &[(f64, f64)]) -> Option<Late> {
-    let values: Vec<(f64, f64, f64)> = begins
+    let values: Vec<Value> = begins
         .iter()
         .zip(&joint.impacts)
-        .map(|(&(position, std), impact)| {
-            let std = std.hypot(SCATTER_S * joint.rate);
-            (impact.slowness, position - impact.position, std)
+        .map(|(&(position, std), impact)| Value {
+            slowness: impact.slowness,
+            late: position - impact.position,
+            std: std.hypot(SCATTER_S * joint.rate),
         })
         .collect();
-    let mut weights: Vec<f64> = values.iter().map(|(.., std)| 1.0 / (std * std)).collect();
+    let terms = joint.template.components.len().max(2);
+    let mut weights: Vec<f64> = values.iter().map(|v| 1.0 / (v.std * v.std)).collect();
     let mut drift = None;
     for _ in 0..AVERAGINGS {
-        let line = Line::through(&values, &weights)?;
-        let off = |v: &(f64, f64, f64)| (v.1 - line.level - line.slope * v.0) / v.2;
+        let curve = Curve::through(&values, &weights, terms)?;
+        let off = |v: &Value| (v.late - curve.at(v.slowness)) / v.std;
         let mut sizes: Vec<f64> = values.iter().map(|v| off(v).abs()).collect();
         sizes.sort_by(f64::total_cmp);
         let scale = (1.48 * sizes[sizes.len() / 2]).max(1.0);
-        drift = Some(Late {
-            shift: line.slope,
-            std: line.slope_std * scale,
-        });
+        drift = Some(curve.late(scale));
         for (w, v) in weights.iter_mut().zip(&values) {
-            *w = 1.0 / (v.2 * v.2 * (1.0 + (off(v) / (3.0 * scale)).powi(2)));
+            *w = 1.0 / (v.std * v.std * (1.0 + (off(v) / (3.0 * scale)).powi(2)));
         }
     }
     drift
 }
 
-/// A weighted straight line.
-struct Line {
-    level: f64,
-    slope: f64,
-    slope_std: f64,
+/// How much later than it begins an impact matches.
+struct Value {
+    slowness: f64,
+    late: f64,
+    std: f64,
 }
 
-impl Line {
-    fn through(values: &[(f64, f64, f64)], weights: &[f64]) -> Option<Self> {
-        let (mut w, mut x, mut y, mut xx, mut xy) = (0.0, 0.0, 0.0, 0.0, 0.0);
+/// A weighted line or parabola, with the covariance of its three coefficients.
+struct Curve {
+    coefficients: [f64; 3],
+    covariance: [[f64; 3]; 3],
+}
+
+impl Curve {
+    fn through(values: &[Value], weights: &[f64], terms: usize) -> Option<Self> {
+        let (mut moments, mut right) = ([0.0; 5], [0.0; 3]);
         for (v, weight) in values.iter().zip(weights) {
-            w += weight;
-            x += weight * v.0;
-            y += weight * v.1;
-            xx += weight * v.0 * v.0;
-            xy += weight * v.0 * v.1;
+            let mut power = *weight;
+            for (k, moment) in moments.iter_mut().enumerate() {
+                *moment += power;
+                if k < terms {
+                    right[k] += power * v.late;
+                }
+                power *= v.slowness;
+            }
         }
-        let determinant = w * xx - x * x;
-        (determinant > 0.0).then(|| Self {
-            level: (xx * y - x * xy) / determinant,
-            slope: (w * xy - x * y) / determinant,
-            slope_std: (w / determinant).sqrt(),
+        solve(&moments, &mut right, terms);
+        let mut covariance = [[0.0; 3]; 3];
+        for (k, column) in covariance.iter_mut().enumerate().take(terms) {
+            column[k] = 1.0;
+            solve(&moments, column, terms);
+        }
+        let finite = right.iter().all(|c| c.is_finite());
+        finite.then_some(Self {
+            coefficients: right,
+            covariance,
         })
+    }
+
+    fn at(&self, slowness: f64) -> f64 {
+        let [level, slope, bend] = self.coefficients;
+        level + slowness * (slope + slowness * bend)
+    }
+
+    /// All but its level; errors are larger than weights say by a factor.
+    fn late(&self, scale: f64) -> Late {
+        let c = |i: usize, j: usize| self.covariance[i][j] * scale * scale;
+        Late {
+            terms: [self.coefficients[1], self.coefficients[2]],
+            covariance: [[c(1, 1), c(1, 2)], [c(2, 1), c(2, 2)]],
+        }
     }
 }
 

@@ -18,6 +18,8 @@ mod drift;
 mod settle;
 mod spread;
 mod template;
+#[cfg(test)]
+mod tests;
 
 use super::whiten::Whitener;
 use super::{Timed, fraction};
@@ -28,6 +30,8 @@ use template::Template;
 const BEFORE_S: f64 = 1e-3;
 /// The template is at most this long, in seconds: rings and rooms that last longer are noise.
 const LONGEST_S: f64 = 0.2;
+/// Sound before the first impact that shows what noise does, in seconds.
+const LEAD_S: f64 = 0.25;
 /// Fewest impacts that have something in common.
 const FEWEST: usize = 3;
 /// Rounds in which impacts may jump to a better match, and rounds in which they only settle.
@@ -77,10 +81,9 @@ pub(super) fn times(
     let in_recording = |position: f64| (real(start) + position + onset) / rate;
     let stds = spread::standard_errors(&joint);
     let timed = joint.impacts.iter().zip(stds).map(|(impact, std)| {
-        let late_std = late.std * impact.slowness;
-        let std = std?.hypot(late_std).hypot(impact.doubt);
+        let std = std?.hypot(late.std(impact.slowness)).hypot(impact.doubt);
         Some(Timed {
-            time_s: in_recording(impact.position + late.shift * impact.slowness),
+            time_s: in_recording(impact.position + late.shift(impact.slowness)),
             std_s: std / rate,
         })
     });
@@ -126,7 +129,7 @@ fn stretch(
     whitener: &Whitener,
 ) -> Option<(usize, Vec<f64>)> {
     let (first_s, last_s) = (coarse_s.first()?, coarse_s.last()?);
-    let start = samples_in(first_s - 0.05, rate).max(whitener.past());
+    let start = samples_in(first_s - LEAD_S, rate).max(whitener.past());
     let end = samples_in(last_s + LONGEST_S, rate).min(samples.len());
     Some((start, whitener.apply(samples, start, end)?))
 }

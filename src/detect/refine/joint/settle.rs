@@ -139,6 +139,26 @@ impl Joint {
         (0..self.impacts.len()).map(around).collect()
     }
 
+    /// What all impacts leave of the sound that begins so many samples before the window of an impact, and its variance;
+    /// none where the impact before still rings or nothing was recorded.
+    pub(super) fn before(
+        &self,
+        i: usize,
+        back: f64,
+        length: usize,
+    ) -> Option<(Vec<f64>, Vec<f64>)> {
+        let begin = self.begin(i) - back;
+        let heard = |j: usize| real(self.template.sounding_length(self.impacts[j].amplitude));
+        let quiet = i
+            .checked_sub(1)
+            .is_none_or(|j| self.begin(j) + heard(j) < begin);
+        if begin < 0.0 || !quiet {
+            return None;
+        }
+        let sound = shifted(&self.sound, begin, length);
+        Some((sound, self.noise(begin, length, None)))
+    }
+
     /// Variance at samples from a position on: noise, and the misfit of all impacts, or of all but one.
     fn noise(&self, begin: f64, length: usize, without: Option<usize>) -> Vec<f64> {
         let first = begin.round();
@@ -187,7 +207,7 @@ impl Joint {
     /// stands.
     ///
     /// # Formula
-    /// `x = a·s − a·δ·ds/dt` with weights `1/noise`, solved for a and δ; `σ_δ²` is the entry of the inverse matrix.
+    /// `x = a·s − a·δ·ds/dt` with weights `1/noise`, solved for a and δ.
     fn step(&mut self, i: usize) -> Sample {
         let head = self.template.head;
         let begin = self.begin(i);

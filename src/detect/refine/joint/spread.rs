@@ -21,7 +21,9 @@ const FAINTEST: f64 = 3.0;
 /// ```text
 /// σ² = B/(B − 2)·Σ_blocks (Σ_t h(t)·r(t)/√(1 − share))²
 /// ```
-/// Its ratio to the variance of independent samples varies slowly along the drop and is averaged over neighbours.
+/// Its ratio to the variance of independent samples varies slowly along the drop and is averaged over neighbours. What
+/// the same pulls make of the noise just before each impact, above what they would make of white noise, is added: hum
+/// and rumble that are left over last longer than a block.
 pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
     let length = joint.template.head;
     let samples: Vec<Sample> = (0..joint.impacts.len())
@@ -37,16 +39,60 @@ pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
             &weights,
         ));
     }
+    let excess = noise_excess(joint, &samples);
     let ratio = |i: usize| {
         let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(judged.len());
         let ratios = judged[near].iter().flatten().map(|(a, b)| (b / a).powi(2));
         let (sum, count) = ratios.fold((0.0, 0), |(s, n), r| (s + r, n + 1));
-        (sum / real(count)).sqrt()
+        (sum / real(count) + excess).sqrt()
     };
     (0..judged.len())
         .map(|i| judged[i].map(|(independent, _)| independent * ratio(i)))
         .collect()
 }
+
+/// Stretches of noise before each impact that are pulled at, each half a head earlier than the next.
+const STRETCHES: usize = 3;
+
+/// How much more than white noise the noise moves a match: the mean of (Σ h·n)²/Σ h²·noise, less 1.
+fn noise_excess(joint: &Joint, samples: &[Sample]) -> f64 {
+    let head = joint.template.head;
+    let (mut sum, mut count) = (0.0, 0);
+    for (i, sample) in samples.iter().enumerate() {
+        let slopes = joint.template.slopes(i, head);
+        let shape = joint.template.shape(i);
+        let alone = vec![1.0; head];
+        let normal = Normal::of(&sample.sound, &alone, shape, &slopes);
+        let pull = |t: usize| normal.pull(1.0, shape[t], slopes[t], 1.0);
+        let pulls: Vec<f64> = (0..head).map(pull).collect();
+        for stretch in 0..STRETCHES {
+            let back = real(head) * (1.0 + 0.5 * real(stretch));
+            let Some((noise, variance)) = joint.before(i, back, head) else {
+                continue;
+            };
+            let moved: f64 = pulls.iter().zip(&noise).map(|(h, n)| h * n).sum();
+            let expected: f64 = pulls.iter().zip(&variance).map(|(h, v)| h * h * v).sum();
+            sum += (moved * moved / expected.max(f64::MIN_POSITIVE)).min(MOST_EXCESS);
+            count += 1;
+        }
+    }
+    if count < FEWEST_STRETCHES {
+        return 0.0;
+    }
+    // Of white noise the mean scatters by √(2/count) around 1.
+    let mean = sum / real(count);
+    let scatter = (2.0 / real(count)).sqrt();
+    if mean > 1.0 + 2.0 * scatter {
+        mean - 1.0
+    } else {
+        0.0
+    }
+}
+
+/// Fewer stretches of noise say nothing.
+const FEWEST_STRETCHES: usize = 4;
+/// A knock in one stretch does not speak for all noise.
+const MOST_EXCESS: f64 = 1e4;
 
 /// Standard error of one position by independent samples and by blocks.
 fn errors(sample: &Sample, shape: &[f64], slopes: &[f64], weights: &[f64]) -> Option<(f64, f64)> {

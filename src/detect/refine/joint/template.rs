@@ -3,9 +3,9 @@
 use crate::detect::refine::interpolate::{KERNEL, slope};
 use crate::units::real;
 
-/// The head holds this share of all that the template knows of time.
-const HEAD_SHARE: f64 = 0.98;
-/// Steps of the template count where they exceed those of its noise by this factor.
+/// The head holds this share of the template's energy: the rest tells little of time.
+const HEAD_SHARE: f64 = 0.95;
+/// A template counts where its square exceeds its variance by this factor.
 const CLEAR: f64 = 1.5;
 /// Share of a weight matrix's trace that is added to its diagonal: where two impacts are alike in speed their
 /// components cannot be told apart.
@@ -77,19 +77,21 @@ impl Template {
         slopes
     }
 
-    /// Samples that hold most of what the template knows of time: of its squared steps, less those that its own noise
-    /// makes (two of its variances each), where they stand out of it.
-    fn head_length(&self, smoothing: usize) -> usize {
-        let steps = self.mean().windows(2).map(|w| (w[1] - w[0]).powi(2));
-        let steps = smoothed(&steps.collect::<Vec<_>>(), smoothing);
-        let known = steps.iter().zip(&self.noise).map(|(step, noise)| {
-            let by_noise = 2.0 * noise;
-            if *step > CLEAR * by_noise {
-                step - by_noise
-            } else {
-                0.0
-            }
-        });
+    /// Samples that hold most of the template's energy, less what its own noise makes, where it stands out of that.
+    fn head_length(&self) -> usize {
+        let squares: Vec<f64> = self.mean().iter().map(|s| s * s).collect();
+        let noise = smoothed(&self.noise, self.before);
+        let known =
+            smoothed(&squares, self.before)
+                .into_iter()
+                .zip(noise)
+                .map(|(square, noise)| {
+                    if square > CLEAR * noise {
+                        square - noise
+                    } else {
+                        0.0
+                    }
+                });
         let known: Vec<f64> = known.collect();
         let total: f64 = known.iter().sum();
         let mut sum = 0.0;
@@ -97,7 +99,7 @@ impl Template {
             sum += s;
             sum >= HEAD_SHARE * total
         });
-        held.map_or(self.len(), |k| k + 2)
+        held.map_or(self.len(), |k| k + 1)
             .clamp((2 * self.before).min(self.len()), self.len())
     }
 
@@ -123,11 +125,9 @@ impl Template {
             weighted_fit(impacts, &weights, &mut self.components);
             self.shapes = slownesses.iter().map(|&u| self.sounding(u)).collect();
         }
-        for (noise, sum) in self.noise.iter_mut().zip(sums(&weights)) {
-            *noise = 1.0 / sum;
-        }
-        let misfit = self.misfit_of(impacts, &weights);
+        let (misfit, noise) = self.left_over(impacts, &weights);
         self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
+        self.noise[..length].copy_from_slice(&noise);
         if length == self.len() {
             self.measure(smoothing);
         }
@@ -142,7 +142,7 @@ impl Template {
             greatest = greatest.max(*t);
             *t = greatest;
         }
-        self.head = self.head_length(smoothing);
+        self.head = self.head_length();
     }
 
     /// `Σ_c uᶜ·S_c`.
@@ -156,13 +156,14 @@ impl Template {
         shape
     }
 
-    /// What the impacts leave over, above what is known to be noise, for an amplitude of 1.
+    /// What the impacts leave over: above what is known to be noise, for an amplitude of 1; and the variance that it
+    /// means for the mean, `Σ w²·r²/a² / (Σ w)²`.
     ///
     /// An impact that makes up the share h of its own template leaves 1 − h of its difference.
-    fn misfit_of(&self, impacts: &[Sample], weights: &[Vec<f64>]) -> Vec<f64> {
+    fn left_over(&self, impacts: &[Sample], weights: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
         let power: f64 = impacts.iter().map(|s| s.amplitude * s.amplitude).sum();
         let all = sums(weights);
-        let mut misfit = vec![0.0; all.len()];
+        let (mut misfit, mut noise) = (vec![0.0; all.len()], vec![0.0; all.len()]);
         for (s, weights) in impacts.iter().zip(weights) {
             let square = s.amplitude * s.amplitude;
             let shape = if self.shapes.is_empty() {
@@ -170,17 +171,18 @@ impl Template {
             } else {
                 self.sounding(s.slowness)
             };
-            for (t, misfit) in misfit.iter_mut().enumerate() {
-                let share = (weights[t] / all[t]).min(MOST_SHARE);
+            for t in 0..all.len() {
+                let share = weights[t] / all[t];
                 let left = s.sound[t] - s.amplitude * shape[t];
-                let others = s.noise[t] - square * self.misfit[t];
-                *misfit += left * left / (1.0 - share) - others;
+                let left = left * left / (1.0 - share.min(MOST_SHARE));
+                misfit[t] += left - (s.noise[t] - square * self.misfit[t]);
+                noise[t] += share * share * left / square;
             }
         }
         for v in &mut misfit {
             *v = (*v / power).max(0.0);
         }
-        misfit
+        (misfit, noise)
     }
 }
 
@@ -260,7 +262,7 @@ fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], components: &mut [Vec<
 }
 
 /// Solves `Σ_c moments[r + c]·y_c = right_r` in place, by elimination; the matrix is positive definite.
-fn solve(moments: &[f64; 5], right: &mut [f64; 3], size: usize) {
+pub(super) fn solve(moments: &[f64; 5], right: &mut [f64; 3], size: usize) {
     let ridge = RIDGE * moments[0];
     let mut rows = [[0.0; 3]; 3];
     for (r, row) in rows.iter_mut().enumerate() {
@@ -270,9 +272,9 @@ fn solve(moments: &[f64; 5], right: &mut [f64; 3], size: usize) {
     }
     for pivot in 0..size {
         for r in pivot + 1..size {
+            let factor = rows[r][pivot] / rows[pivot][pivot];
             let above = rows[pivot];
-            let factor = rows[r][pivot] / above[pivot];
-            for (cell, above) in rows[r].iter_mut().zip(above).skip(pivot) {
+            for (cell, above) in rows[r].iter_mut().zip(above) {
                 *cell -= factor * above;
             }
             right[r] -= factor * right[pivot];
