@@ -75,34 +75,49 @@ pub fn refine(
         return grid;
     }
     let whitener = whiten::Whitener::learn(samples, sample_rate_hz, coarse_s);
-    let windows: Vec<Option<Window>> = coarse_s
-        .iter()
-        .map(|&time_s| window(samples, sample_rate_hz, time_s, &whitener))
-        .collect();
-    let rises: Vec<Option<fraction::Rise>> = windows
-        .iter()
-        .map(|w| fraction::time(w.as_ref()?, sample_rate_hz))
-        .collect();
-    let in_recording = |w: &Window, position: f64| (real(w.start) + position) / sample_rate_hz;
-    let by_fraction = windows
-        .iter()
-        .zip(&rises)
-        .zip(&grid)
-        .map(|((w, rise), &grid)| match (w, rise) {
-            (Some(w), Some(rise)) => Timed {
-                time_s: in_recording(w, rise.position),
-                std_s: rise.std / sample_rate_hz,
-            },
-            _ => grid,
-        });
-    let mut timed: Vec<Timed> = by_fraction.collect();
-    if timing == Timing::Correlation {
-        let together = joint::times(samples, sample_rate_hz, coarse_s, &whitener);
-        for (time, better) in timed.iter_mut().zip(together.into_iter().flatten()) {
-            *time = better.unwrap_or(*time);
-        }
-    }
-    timed
+    let together = if timing == Timing::Correlation {
+        joint::times(samples, sample_rate_hz, coarse_s, &whitener)
+    } else {
+        None
+    };
+    let mut together = together.into_iter().flatten();
+    let timed = grid.into_iter().map(|grid| {
+        let by_fraction = || by_fraction(samples, sample_rate_hz, grid.time_s, &whitener);
+        let time = together.next().flatten();
+        time.or_else(by_fraction).unwrap_or(grid)
+    });
+    timed.collect()
+}
+
+/// Onsets of the impacts of one drop, in seconds, given coarse times in ascending order: each is matched with those
+/// next to it, once. That is good to some hundredths of a millisecond, and several times as fast as [`refine`].
+#[must_use]
+pub fn align(samples: &[f32], sample_rate_hz: f64, coarse_s: &[f64]) -> Vec<f64> {
+    let whitener = whiten::Whitener::learn(samples, sample_rate_hz, coarse_s);
+    let aligned = joint::aligned(samples, sample_rate_hz, coarse_s, &whitener);
+    let mut aligned = aligned.into_iter().flatten();
+    let times = coarse_s.iter().map(|&time_s| {
+        let by_fraction =
+            || by_fraction(samples, sample_rate_hz, time_s, &whitener).map(|t| t.time_s);
+        let time = aligned.next().flatten();
+        time.or_else(by_fraction).unwrap_or(time_s)
+    });
+    times.collect()
+}
+
+/// The time of one impact by its own rise.
+fn by_fraction(
+    samples: &[f32],
+    sample_rate_hz: f64,
+    time_s: f64,
+    whitener: &whiten::Whitener,
+) -> Option<Timed> {
+    let window = window(samples, sample_rate_hz, time_s, whitener)?;
+    let rise = fraction::time(&window, sample_rate_hz)?;
+    Some(Timed {
+        time_s: (real(window.start) + rise.position) / sample_rate_hz,
+        std_s: rise.std / sample_rate_hz,
+    })
 }
 
 fn window(

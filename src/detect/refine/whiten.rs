@@ -1,5 +1,6 @@
 //! A filter after which the noise of this recording is white, by linear prediction.
 
+use super::interpolate::correlated;
 use crate::detect::voice::dot;
 use crate::units::{real, samples_in};
 
@@ -64,19 +65,12 @@ impl Whitener {
             .copied()
             .map(f64::from)
             .collect();
-        let mut white: Vec<f64> = needed
-            .get(ORDER..)?
-            .iter()
-            .map(|x| self.scale * x)
-            .collect();
-        // Tap by tap over all samples, for the machine's vectors.
-        for (k, a) in self.predictor.iter().enumerate() {
-            let weight = self.scale * a;
-            for (y, x) in white.iter_mut().zip(&needed[ORDER - 1 - k..]) {
-                *y -= weight * x;
-            }
+        // From the oldest sample to the newest, which is not predicted.
+        let mut weights = [self.scale; ORDER + 1];
+        for (weight, a) in weights.iter_mut().zip(self.predictor.iter().rev()) {
+            *weight = -self.scale * a;
         }
-        Some(white)
+        Some(correlated(&needed, &weights))
     }
 }
 

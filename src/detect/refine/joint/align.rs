@@ -72,7 +72,7 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
 }
 
 /// An impact that matches nothing is taken to be this loud until it does.
-const FAINT: f64 = 1e-3;
+pub(super) const FAINT: f64 = 1e-3;
 
 /// Samples after the onset that three impacts at least sound alone.
 fn longest(flights: &[f64], rate: f64, before: usize) -> usize {

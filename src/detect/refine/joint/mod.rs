@@ -75,12 +75,7 @@ pub(super) fn times(
     coarse_s: &[f64],
     whitener: &Whitener,
 ) -> Option<Vec<Option<Timed>>> {
-    if coarse_s.len() < FEWEST {
-        return None;
-    }
-    let (start, sound) = stretch(samples, rate, coarse_s, whitener)?;
-    let coarse: Vec<f64> = coarse_s.iter().map(|t| t * rate - real(start)).collect();
-    let mut joint = align::start(sound, rate, &coarse)?;
+    let (start, mut joint) = started(samples, rate, coarse_s, whitener)?;
     let late = drift::follow(&mut joint);
     let onset = joint.onset();
     let in_recording = |position: f64| (real(start) + position + onset) / rate;
@@ -93,6 +88,37 @@ pub(super) fn times(
         })
     });
     Some(timed.collect())
+}
+
+/// Onsets of the impacts in seconds by the first alignment alone; none as for [`times`].
+pub(super) fn aligned(
+    samples: &[f32],
+    rate: f64,
+    coarse_s: &[f64],
+    whitener: &Whitener,
+) -> Option<Vec<Option<f64>>> {
+    let (start, joint) = started(samples, rate, coarse_s, whitener)?;
+    let onset = real(start) + joint.onset();
+    let times = joint.impacts.iter().map(|impact| {
+        let matched = impact.amplitude > align::FAINT;
+        matched.then_some((impact.position + onset) / rate)
+    });
+    Some(times.collect())
+}
+
+/// The impacts in their first alignment, and the sample that their stretch begins at.
+fn started(
+    samples: &[f32],
+    rate: f64,
+    coarse_s: &[f64],
+    whitener: &Whitener,
+) -> Option<(usize, Joint)> {
+    if coarse_s.len() < FEWEST {
+        return None;
+    }
+    let (start, sound) = stretch(samples, rate, coarse_s, whitener)?;
+    let coarse: Vec<f64> = coarse_s.iter().map(|t| t * rate - real(start)).collect();
+    Some((start, align::start(sound, rate, &coarse)?))
 }
 
 /// The whitened sound from before the first impact to after the last, and the sample that it begins at.

@@ -122,12 +122,7 @@ impl Template {
         if self.components.len() == 1 {
             weighted_mean(impacts, &weights, &mut self.components[0][..length]);
         } else {
-            for t in 0..length {
-                let values = weighted_fit(impacts, &weights, t, self.components.len());
-                for (component, value) in self.components.iter_mut().zip(values) {
-                    component[t] = value;
-                }
-            }
+            weighted_fit(impacts, &weights, &mut self.components);
             self.shapes = slownesses.iter().map(|&u| self.sounding(u)).collect();
         }
         let (misfit, noise) = self.left_over(impacts, &weights);
@@ -230,22 +225,40 @@ fn weighted_mean(impacts: &[Sample], weights: &[Vec<f64>], mean: &mut [f64]) {
     }
 }
 
-/// The components at one sample: up to three normal equations.
-fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], t: usize, components: usize) -> Vec<f64> {
-    let (mut moments, mut right) = ([0.0; 5], [0.0; 3]);
+/// The components at each sample: up to three normal equations. Their sums grow sound by sound, over all samples, for
+/// the machine's vectors.
+fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], components: &mut [Vec<f64>]) {
+    let (size, length) = (components.len(), weights.first().map_or(0, Vec::len));
+    let mut moments = vec![vec![0.0; length]; 2 * size - 1];
+    let mut right = vec![vec![0.0; length]; size];
     for (s, weights) in impacts.iter().zip(weights) {
-        let value = s.sound[t] / s.amplitude;
-        let mut power = weights[t];
-        for (k, moment) in moments.iter_mut().enumerate().take(2 * components - 1) {
-            *moment += power;
-            if k < components {
-                right[k] += power * value;
+        let mut power = 1.0;
+        for (k, moments) in moments.iter_mut().enumerate() {
+            for (moment, w) in moments.iter_mut().zip(weights) {
+                *moment += power * w;
+            }
+            let scale = power / s.amplitude;
+            for (right, (w, x)) in right
+                .iter_mut()
+                .skip(k)
+                .take(1)
+                .flatten()
+                .zip(weights.iter().zip(&s.sound))
+            {
+                *right += scale * w * x;
             }
             power *= s.slowness;
         }
     }
-    solve(&moments, &mut right, components);
-    right[..components].to_vec()
+    for t in 0..length {
+        let at = |of: &[Vec<f64>], k: usize| of.get(k).map_or(0.0, |values| values[t]);
+        let moments = std::array::from_fn(|k| at(&moments, k));
+        let mut values = std::array::from_fn(|k| at(&right, k));
+        solve(&moments, &mut values, size);
+        for (component, value) in components.iter_mut().zip(values) {
+            component[t] = value;
+        }
+    }
 }
 
 /// Solves `Σ_c moments[r + c]·y_c = right_r` in place, by elimination; the matrix is positive definite.
