@@ -151,47 +151,65 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// it fits the cache.
 const TRANSFORM_LENGTHS: usize = 6;
 
-/// `Σ_j a[k + j]·b[j]` for every k at which b lies within a, by Fourier transforms of stretches of a that overlap by b.
+/// Correlates sequences by Fourier transforms, which it remembers the plans of.
+#[derive(Default)]
+pub(super) struct Correlator {
+    planner: realfft::RealFftPlanner<f64>,
+}
+
+impl std::fmt::Debug for Correlator {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Correlator").finish_non_exhaustive()
+    }
+}
+
+/// [`Correlator::correlate`] for once.
 pub(super) fn correlate(a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
-    let count = a.len().checked_sub(b.len())? + 1;
-    let length = (TRANSFORM_LENGTHS * b.len())
-        .min(a.len())
-        .next_power_of_two();
-    let mut planner = realfft::RealFftPlanner::new();
-    let forward = planner.plan_fft_forward(length);
-    let inverse = planner.plan_fft_inverse(length);
-    let (mut stretch, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
-    let (mut ahead, mut back) = (forward.make_scratch_vec(), inverse.make_scratch_vec());
-    let mut sound = forward.make_output_vec();
-    stretch[..b.len()].copy_from_slice(b);
-    forward
-        .process_with_scratch(&mut stretch, &mut spectrum, &mut ahead)
-        .ok()?;
-    for x in &mut spectrum {
-        *x = x.conj() / real(length);
-    }
-    let mut out = Vec::with_capacity(count);
-    // Of each stretch the last values wrap around.
-    let step = length - b.len() + 1;
-    for start in (0..count).step_by(step) {
-        let end = (start + length).min(a.len());
-        stretch[..end - start].copy_from_slice(&a[start..end]);
-        stretch[end - start..].fill(0.0);
+    Correlator::default().correlate(a, b)
+}
+
+impl Correlator {
+    /// `Σ_j a[k + j]·b[j]` for every k at which b lies within a, by Fourier transforms of stretches of a that overlap by b.
+    pub(super) fn correlate(&mut self, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
+        let count = a.len().checked_sub(b.len())? + 1;
+        let length = (TRANSFORM_LENGTHS * b.len())
+            .min(a.len())
+            .next_power_of_two();
+        let forward = self.planner.plan_fft_forward(length);
+        let inverse = self.planner.plan_fft_inverse(length);
+        let (mut stretch, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
+        let (mut ahead, mut back) = (forward.make_scratch_vec(), inverse.make_scratch_vec());
+        let mut sound = forward.make_output_vec();
+        stretch[..b.len()].copy_from_slice(b);
         forward
-            .process_with_scratch(&mut stretch, &mut sound, &mut ahead)
+            .process_with_scratch(&mut stretch, &mut spectrum, &mut ahead)
             .ok()?;
-        for (x, y) in sound.iter_mut().zip(&spectrum) {
-            *x *= y;
+        for x in &mut spectrum {
+            *x = x.conj() / real(length);
         }
-        // Rounding leaves a trace of an imaginary part where a real signal has none.
-        sound.first_mut()?.im = 0.0;
-        sound.last_mut()?.im = 0.0;
-        inverse
-            .process_with_scratch(&mut sound, &mut stretch, &mut back)
-            .ok()?;
-        out.extend_from_slice(&stretch[..step.min(count - start)]);
+        let mut out = Vec::with_capacity(count);
+        // Of each stretch the last values wrap around.
+        let step = length - b.len() + 1;
+        for start in (0..count).step_by(step) {
+            let end = (start + length).min(a.len());
+            stretch[..end - start].copy_from_slice(&a[start..end]);
+            stretch[end - start..].fill(0.0);
+            forward
+                .process_with_scratch(&mut stretch, &mut sound, &mut ahead)
+                .ok()?;
+            for (x, y) in sound.iter_mut().zip(&spectrum) {
+                *x *= y;
+            }
+            // Rounding leaves a trace of an imaginary part where a real signal has none.
+            sound.first_mut()?.im = 0.0;
+            sound.last_mut()?.im = 0.0;
+            inverse
+                .process_with_scratch(&mut sound, &mut stretch, &mut back)
+                .ok()?;
+            out.extend_from_slice(&stretch[..step.min(count - start)]);
+        }
+        Some(out)
     }
-    Some(out)
 }
 
 #[cfg(test)]

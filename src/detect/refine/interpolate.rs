@@ -179,8 +179,9 @@ mod tests {
     fn a_maximum_is_the_highest_of_all_places_near_it() {
         let mut rng = SplitMix64::new(5);
         let noise: Vec<f64> = (0..300).map(|_| rng.normal()).collect();
-        // Smooth enough to have a maximum of its own at each highest sample.
-        let values: Vec<f64> = noise.windows(6).map(|w| w.iter().sum()).collect();
+        // So smooth that there is one maximum at each highest sample.
+        let smooth = |x: &[f64]| -> Vec<f64> { x.windows(4).map(|w| w.iter().sum()).collect() };
+        let values = smooth(&smooth(&smooth(&noise)));
         let mut tried = 0;
         for top in 20..270 {
             if values[top] > values[top - 1].max(values[top + 1]) {

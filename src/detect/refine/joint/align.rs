@@ -4,6 +4,7 @@ use super::settle::{PRIOR_REACH, best};
 use super::template::{Template, smoothed};
 use super::{BEFORE_S, Impact, Joint, LONGEST_S};
 use crate::detect::refine::interpolate::{KERNEL, shifted};
+use crate::detect::voice::Correlator;
 use crate::units::{real, samples_in};
 
 /// Impacts are first aligned by this much of their sound at most, in seconds.
@@ -46,6 +47,7 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
             knocks: Vec::new(),
         })
         .collect();
+    let mut correlator = Correlator::default();
     let mut aligned = vec![loudest];
     for i in (loudest + 1..coarse.len()).chain((0..loudest).rev()) {
         let near = nearest(&aligned, i);
@@ -53,7 +55,9 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
         let power: f64 = near.iter().map(|&j| impacts[j].amplitude.powi(2)).sum();
         let noise = vec![1.0 / power; shape.len()];
         let head = Template::new(shape, noise, before);
-        if let Some((position, amplitude)) = matched(&sound, &impacts[i], &head, jitter) {
+        if let Some((position, amplitude)) =
+            matched(&mut correlator, &sound, &impacts[i], &head, jitter)
+        {
             impacts[i].position = position;
             impacts[i].amplitude = amplitude;
             aligned.push(i);
@@ -68,6 +72,7 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
         jitter,
         impacts,
         template,
+        correlator,
     })
 }
 
@@ -125,14 +130,20 @@ fn mean(impacts: &[Impact], of: &[usize], cut: impl Fn(f64) -> Vec<f64>) -> Vec<
 }
 
 /// Position and amplitude of an impact by the template's head.
-fn matched(sound: &[f64], impact: &Impact, template: &Template, jitter: f64) -> Option<(f64, f64)> {
+fn matched(
+    correlator: &mut Correlator,
+    sound: &[f64],
+    impact: &Impact,
+    template: &Template,
+    jitter: f64,
+) -> Option<(f64, f64)> {
     let (head, reach) = (template.head, impact.reach + KERNEL);
     let begin = impact.coarse.round() - real(template.before + reach);
     let samples = shifted(sound, begin, head + 2 * reach);
     let noise = vec![1.0; samples.len()];
     let coarse = impact.coarse - begin - real(template.before);
     let shape = &template.mean()[..head];
-    let fit = best(&samples, &noise, shape, (coarse, jitter), reach)?;
+    let fit = best(correlator, &samples, &noise, shape, (coarse, jitter), reach)?;
     Some((begin + fit.position + real(template.before), fit.amplitude))
 }
 

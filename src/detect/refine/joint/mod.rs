@@ -23,6 +23,7 @@ mod tests;
 
 use super::whiten::Whitener;
 use super::{Timed, fraction};
+use crate::detect::voice::Correlator;
 use crate::units::{real, samples_in};
 use template::Template;
 
@@ -65,6 +66,7 @@ struct Joint {
     jitter: f64,
     impacts: Vec<Impact>,
     template: Template,
+    correlator: Correlator,
 }
 
 /// Times of the impacts from coarse times in ascending order; none for an impact that does not resemble the others, or

@@ -3,7 +3,7 @@
 use super::template::{Sample, smoothed};
 use super::{Joint, ROUNDS, SEARCHES};
 use crate::detect::refine::interpolate::{KERNEL, maximum, shifted};
-use crate::detect::voice::dot;
+use crate::detect::voice::Correlator;
 use crate::units::{real, samples_in};
 
 /// Smoothing of the misfit, either way, in seconds.
@@ -194,7 +194,8 @@ impl Joint {
         let noise = self.noise(begin, samples.len(), Some(i));
         let shape = &self.template.shape(i)[..head];
         let coarse = impact.coarse - begin - real(self.template.before);
-        let found = best(&samples, &noise, shape, (coarse, self.jitter), reach);
+        let prior = (coarse, self.jitter);
+        let found = best(&mut self.correlator, &samples, &noise, shape, prior, reach);
         if let Some(fit) = found {
             let impact = &mut self.impacts[i];
             impact.position = begin + fit.position + real(self.template.before);
@@ -214,8 +215,8 @@ impl Joint {
         let mut wide = shifted(&self.sound, begin - real(KERNEL), head + 2 * KERNEL);
         self.take_out_others(i, begin - real(KERNEL), &mut wide);
         let noise = self.noise_and_knocks(i, head);
-        let (shape, slopes) = (self.template.shape(i), self.template.slopes(i, head));
-        let normal = Normal::of(&wide[KERNEL..KERNEL + head], &noise, shape, &slopes);
+        let (shape, slopes) = (self.template.shape(i), self.template.slopes(i));
+        let normal = Normal::of(&wide[KERNEL..KERNEL + head], &noise, shape, slopes);
         let impact = &mut self.impacts[i];
         let (amplitude, moved, _) = normal.solve(impact.amplitude);
         impact.amplitude = amplitude.max(LEAST_AMPLITUDE * impact.amplitude);
@@ -312,12 +313,16 @@ impl Normal {
     }
 }
 
+/// Least energy of a shape where much of it was not recorded, as a share of the greatest.
+const LEAST_ENERGY: f64 = 1e-9;
+
 /// The best place for a shape among samples; `prior` is where it is expected to begin and how surely.
 ///
 /// # Formula
 /// `L(p) = (Σ w·x·s(· − p))²/(2 Σ w·s²(· − p))/scale − (p − prior)²/2σ²`: what a shape of positive amplitude explains,
 /// where what it leaves has the variance `scale`, at least 1.
 pub(super) fn best(
+    correlator: &mut Correlator,
     samples: &[f64],
     noise: &[f64],
     shape: &[f64],
@@ -328,18 +333,16 @@ pub(super) fn best(
     let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
     let weights: Vec<f64> = noise.iter().map(|n| 1.0 / n).collect();
     let lags = samples.len() - shape.len() + 1;
-    let products: Vec<f64> = weighted
-        .windows(shape.len())
-        .map(|w| dot(w, shape))
-        .collect();
+    let products = correlator.correlate(&weighted, shape)?;
     let flat = weights.iter().all(|w| (w - weights[0]).abs() < 1e-9);
-    let energies: Vec<f64> = if flat {
+    let energies = if flat {
         vec![weights[0] * squares.iter().sum::<f64>(); lags]
     } else {
-        weights
-            .windows(shape.len())
-            .map(|w| dot(w, &squares))
-            .collect()
+        // Rounding leaves nothing certain of what is next to none: there a match explains nothing.
+        let mut energies = correlator.correlate(&weights, &squares)?;
+        let least = LEAST_ENERGY * energies.iter().fold(0.0, |a: f64, &b| a.max(b));
+        energies.iter_mut().for_each(|e| *e = e.max(least));
+        energies
     };
     let explained = |k: usize| products[k].max(0.0).powi(2) / (2.0 * energies[k]);
     let inside = KERNEL..lags.checked_sub(KERNEL)?.max(KERNEL + 1);

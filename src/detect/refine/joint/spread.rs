@@ -35,7 +35,7 @@ pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
         judged.push(errors(
             sample,
             joint.template.shape(i),
-            &joint.template.slopes(i, length),
+            joint.template.slopes(i),
             &weights,
         ));
     }
@@ -59,10 +59,10 @@ fn noise_excess(joint: &Joint, samples: &[Sample]) -> f64 {
     let head = joint.template.head;
     let (mut sum, mut count) = (0.0, 0);
     for (i, sample) in samples.iter().enumerate() {
-        let slopes = joint.template.slopes(i, head);
+        let slopes = joint.template.slopes(i);
         let shape = joint.template.shape(i);
         let alone = vec![1.0; head];
-        let normal = Normal::of(&sample.sound, &alone, shape, &slopes);
+        let normal = Normal::of(&sample.sound, &alone, shape, slopes);
         let pull = |t: usize| normal.pull(1.0, shape[t], slopes[t], 1.0);
         let pulls: Vec<f64> = (0..head).map(pull).collect();
         for stretch in 0..STRETCHES {

@@ -23,6 +23,8 @@ pub(super) struct Template {
     pub head: usize,
     /// The sound of each impact, where impacts differ by their speed.
     shapes: Vec<Vec<f64>>,
+    /// The derivative of each, or of all, as far as the head.
+    slopes: Vec<Vec<f64>>,
     /// Greatest of the smoothed squares of the mean from each sample on.
     tail: Vec<f64>,
     /// Variance of the mean.
@@ -52,6 +54,7 @@ impl Template {
             ..Self::default()
         };
         template.measure(before / 8);
+        template.learn_slopes(&[]);
         template
     }
 
@@ -69,12 +72,10 @@ impl Template {
         self.shapes.get(i).unwrap_or(&self.components[0])
     }
 
-    /// The first `length` samples of that sound's derivative, per sample.
-    pub(super) fn slopes(&self, i: usize, length: usize) -> Vec<f64> {
-        let shape = self.shape(i);
-        let mut slopes = slope(&shape[..(length + KERNEL).min(shape.len())]);
-        slopes.truncate(length);
-        slopes
+    /// The head of that sound's derivative, per sample.
+    pub(super) fn slopes(&self, i: usize) -> &[f64] {
+        let all_alike = self.slopes.first().map_or(&[][..], Vec::as_slice);
+        self.slopes.get(i).map_or(all_alike, Vec::as_slice)
     }
 
     /// Samples that hold most of the template's energy, less what its own noise makes, where it stands out of that.
@@ -123,13 +124,47 @@ impl Template {
             weighted_mean(impacts, &weights, &mut self.components[0][..length]);
         } else {
             weighted_fit(impacts, &weights, &mut self.components);
-            self.shapes = slownesses.iter().map(|&u| self.sounding(u)).collect();
+            self.learn_shapes(length, slownesses);
         }
         let (misfit, noise) = self.left_over(impacts, &weights);
         self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
         self.noise[..length].copy_from_slice(&noise);
         if length == self.len() {
             self.measure(smoothing);
+        }
+        self.learn_slopes(slownesses);
+    }
+
+    /// The sound of each impact anew, up to where the components changed.
+    fn learn_shapes(&mut self, length: usize, slownesses: &[f64]) {
+        let changed = if self.shapes.is_empty() {
+            self.len()
+        } else {
+            length
+        };
+        self.shapes.resize(slownesses.len(), vec![0.0; self.len()]);
+        for (shape, &u) in self.shapes.iter_mut().zip(slownesses) {
+            combine(&self.components, u, &mut shape[..changed]);
+        }
+    }
+
+    /// The derivatives of the heads anew: a derivative of a sum is the sum of the derivatives.
+    fn learn_slopes(&mut self, slownesses: &[f64]) {
+        let (head, length) = (self.head, (self.head + KERNEL).min(self.len()));
+        let slopes = self.components.iter().map(|c| {
+            let mut slopes = slope(&c[..length]);
+            slopes.truncate(head);
+            slopes
+        });
+        let slopes: Vec<Vec<f64>> = slopes.collect();
+        if let [_] = slopes[..] {
+            self.slopes = slopes;
+        } else {
+            self.slopes.resize(slownesses.len(), Vec::new());
+            for (own, &u) in self.slopes.iter_mut().zip(slownesses) {
+                own.resize(head, 0.0);
+                combine(&slopes, u, own);
+            }
         }
     }
 
@@ -145,17 +180,6 @@ impl Template {
         self.head = self.head_length();
     }
 
-    /// `Σ_c uᶜ·S_c`.
-    fn sounding(&self, slowness: f64) -> Vec<f64> {
-        let mut shape = vec![0.0; self.len()];
-        for component in self.components.iter().rev() {
-            for (s, c) in shape.iter_mut().zip(component) {
-                *s = *s * slowness + c;
-            }
-        }
-        shape
-    }
-
     /// What the impacts leave over: above what is known to be noise, for an amplitude of 1; and the variance that it
     /// means for the mean, `Σ w²·r²/a² / (Σ w)²`.
     ///
@@ -166,11 +190,8 @@ impl Template {
         let (mut misfit, mut noise) = (vec![0.0; all.len()], vec![0.0; all.len()]);
         for (s, weights) in impacts.iter().zip(weights) {
             let square = s.amplitude * s.amplitude;
-            let shape = if self.shapes.is_empty() {
-                self.mean().to_vec()
-            } else {
-                self.sounding(s.slowness)
-            };
+            let mut shape = vec![0.0; all.len()];
+            combine(&self.components, s.slowness, &mut shape);
             for t in 0..all.len() {
                 let share = weights[t] / all[t];
                 let left = s.sound[t] - s.amplitude * shape[t];
@@ -191,6 +212,16 @@ impl Sample {
     pub(super) fn weights(&self) -> Vec<f64> {
         let square = self.amplitude * self.amplitude;
         self.noise.iter().map(|n| square / n).collect()
+    }
+}
+
+/// `Σ_c uᶜ·S_c` for components `S_c`, as far as it is wanted.
+fn combine(components: &[Vec<f64>], slowness: f64, sum: &mut [f64]) {
+    sum.fill(0.0);
+    for component in components.iter().rev() {
+        for (s, c) in sum.iter_mut().zip(component) {
+            *s = *s * slowness + c;
+        }
     }
 }
 
@@ -341,6 +372,37 @@ mod tests {
         assert!(template.misfit[..25].iter().all(|&v| v < 1e-4));
         let late = template.misfit[35..].iter().sum::<f64>() / 25.0;
         assert!((late / 4e-4 - 1.0).abs() < 0.15, "{late}");
+    }
+
+    #[test]
+    fn heads_learnt_again_change_each_sound_and_its_derivative_as_learning_all_does() {
+        let mut rng = SplitMix64::new(9);
+        let slownesses: Vec<f64> = (0..12).map(|i| 0.1 * real(i) - 0.5).collect();
+        let mut sounds = |length: usize| -> Vec<Sample> {
+            let sample = |&slowness: &f64| Sample {
+                amplitude: 20.0 + slowness,
+                slowness,
+                sound: (0..length).map(|_| 20.0 * rng.normal()).collect(),
+                noise: (0..length).map(|_| 1.0 + rng.normal().powi(2)).collect(),
+            };
+            slownesses.iter().map(sample).collect()
+        };
+        let mut template = Template::new(vec![0.0; 90], vec![0.0; 90], 10);
+        template.components.resize(3, vec![0.0; 90]);
+        for length in [90, template.head, template.head] {
+            template.learn(&sounds(length.min(90)), &slownesses, 2);
+            let head = template.head;
+            for (i, u) in slownesses.iter().enumerate() {
+                let mut shape = vec![0.0; 90];
+                combine(&template.components, *u, &mut shape);
+                assert_eq!(template.shape(i), shape);
+                let slopes = slope(&shape[..(head + KERNEL).min(90)]);
+                assert_eq!(template.slopes(i).len(), head);
+                for (fast, slow) in template.slopes(i).iter().zip(slopes) {
+                    assert!((fast - slow).abs() < 1e-10, "impact {i}: {fast} vs {slow}");
+                }
+            }
+        }
     }
 
     #[test]
