@@ -1,6 +1,6 @@
 //! The first alignment: from the loudest impact along the drop, each impact matched with those next to it.
 
-use super::settle::{PRIOR_REACH, best};
+use super::settle::best;
 use super::template::{Template, smoothed};
 use super::{BEFORE_S, Impact, Joint, LONGEST_S};
 use crate::detect::refine::interpolate::{KERNEL, shifted};
@@ -17,8 +17,9 @@ const NEIGHBOURS: usize = 3;
 /// the least jitter, nor worse than the most, in seconds.
 const JITTER_PERIODS: f64 = 0.3;
 const JITTER_S: (f64, f64) = (0.5e-3, 1.5e-3);
-/// Share of a flight that an impact may be off: the next one is another impact.
-const FLIGHT_SHARE: f64 = 0.4;
+/// Nor is an impact off by more than this share of a flight (one standard deviation): it was found where the flights
+/// before it want it.
+const FLIGHT_SHARE: f64 = 0.05;
 /// Energy is judged over this time either way, in seconds.
 const ENERGY_S: f64 = 4e-3;
 
@@ -41,7 +42,7 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
             position: coarse[i],
             amplitude: 1.0,
             coarse: coarse[i],
-            reach: reach(&flights, i, jitter),
+            jitter: jitter.min(FLIGHT_SHARE * shortest_flight(&flights, i)),
             slowness: 0.0,
             doubt: 0.0,
             knocks: Vec::new(),
@@ -55,9 +56,7 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
         let power: f64 = near.iter().map(|&j| impacts[j].amplitude.powi(2)).sum();
         let noise = vec![1.0 / power; shape.len()];
         let head = Template::new(shape, noise, before);
-        if let Some((position, amplitude)) =
-            matched(&mut correlator, &sound, &impacts[i], &head, jitter)
-        {
+        if let Some((position, amplitude)) = matched(&mut correlator, &sound, &impacts[i], &head) {
             impacts[i].position = position;
             impacts[i].amplitude = amplitude;
             aligned.push(i);
@@ -69,7 +68,6 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
     Some(Joint {
         sound,
         rate,
-        jitter,
         impacts,
         template,
         correlator,
@@ -96,12 +94,11 @@ fn jitter(sound: &[f64], rate: f64) -> f64 {
     (JITTER_PERIODS * period).clamp(JITTER_S.0 * rate, JITTER_S.1 * rate)
 }
 
-/// How far from its coarse time an impact is sought, in samples.
-fn reach(flights: &[f64], i: usize, jitter: f64) -> usize {
+/// The shorter of the flights on both sides of an impact, in samples.
+fn shortest_flight(flights: &[f64], i: usize) -> f64 {
     let before = i.checked_sub(1).and_then(|i| flights.get(i));
     let near = before.into_iter().chain(flights.get(i));
-    let shortest = near.copied().fold(f64::INFINITY, f64::min);
-    samples_in((PRIOR_REACH * jitter).min(FLIGHT_SHARE * shortest), 1.0).max(2)
+    near.copied().fold(f64::INFINITY, f64::min)
 }
 
 /// The aligned impacts next to one.
@@ -135,15 +132,21 @@ fn matched(
     sound: &[f64],
     impact: &Impact,
     template: &Template,
-    jitter: f64,
 ) -> Option<(f64, f64)> {
-    let (head, reach) = (template.head, impact.reach + KERNEL);
+    let (head, reach) = (template.head, impact.reach() + KERNEL);
     let begin = impact.coarse.round() - real(template.before + reach);
     let samples = shifted(sound, begin, head + 2 * reach);
     let noise = vec![1.0; samples.len()];
     let coarse = impact.coarse - begin - real(template.before);
     let shape = &template.mean()[..head];
-    let fit = best(correlator, &samples, &noise, shape, (coarse, jitter), reach)?;
+    let fit = best(
+        correlator,
+        &samples,
+        &noise,
+        shape,
+        (coarse, impact.jitter),
+        reach,
+    )?;
     Some((begin + fit.position + real(template.before), fit.amplitude))
 }
 

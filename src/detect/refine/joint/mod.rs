@@ -46,9 +46,9 @@ struct Impact {
     position: f64,
     /// Size in units of the template.
     amplitude: f64,
-    /// Where the detector saw it, in samples, and how far off that may be at most.
+    /// Where the detector saw it, in samples, and the standard deviation of that.
     coarse: f64,
-    reach: usize,
+    jitter: f64,
     /// `(v/v₁)^(−1/5)` less its mean: how much longer than usual its contact lasts.
     slowness: f64,
     /// Standard error by other places that match nearly as well.
@@ -57,13 +57,18 @@ struct Impact {
     knocks: Vec<f64>,
 }
 
+impl Impact {
+    /// How far from its coarse time it is sought, in samples.
+    fn reach(&self) -> usize {
+        samples_in(settle::PRIOR_REACH * self.jitter, 1.0).max(2)
+    }
+}
+
 /// The impacts of a drop in the whitened sound around them.
 #[derive(Debug)]
 struct Joint {
     sound: Vec<f64>,
     rate: f64,
-    /// Standard deviation of the detector's times, in samples.
-    jitter: f64,
     impacts: Vec<Impact>,
     template: Template,
     correlator: Correlator,

@@ -187,14 +187,14 @@ impl Joint {
     /// Puts an impact where it fits best within its reach, in what the others leave.
     fn search(&mut self, i: usize) {
         let impact = &self.impacts[i];
-        let (head, reach) = (self.template.head, impact.reach + KERNEL);
+        let (head, reach) = (self.template.head, impact.reach() + KERNEL);
         let begin = impact.coarse.round() - real(self.template.before + reach);
         let mut samples = shifted(&self.sound, begin, head + 2 * reach);
         self.take_out_others(i, begin, &mut samples);
         let noise = self.noise(begin, samples.len(), Some(i));
         let shape = &self.template.shape(i)[..head];
         let coarse = impact.coarse - begin - real(self.template.before);
-        let prior = (coarse, self.jitter);
+        let prior = (coarse, impact.jitter);
         let found = best(&mut self.correlator, &samples, &noise, shape, prior, reach);
         if let Some(fit) = found {
             let impact = &mut self.impacts[i];
