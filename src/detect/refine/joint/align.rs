@@ -44,6 +44,7 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint>
             coarse: coarse[i],
             jitter: jitter.min(FLIGHT_SHARE * shortest_flight(&flights, i)),
             slowness: 0.0,
+            likeness: 1.0,
             doubt: 0.0,
             knocks: Vec::new(),
         })
@@ -141,11 +142,10 @@ fn matched(
     let shape = &template.mean()[..head];
     let fit = best(
         correlator,
-        &samples,
-        &noise,
+        (&samples, &noise),
         shape,
         (coarse, impact.jitter),
-        reach,
+        (reach, impact.likeness),
     )?;
     Some((begin + fit.position + real(template.before), fit.amplitude))
 }

@@ -51,6 +51,8 @@ struct Impact {
     jitter: f64,
     /// `(v/v₁)^(−1/5)` less its mean: how much longer than usual its contact lasts.
     slowness: f64,
+    /// How many samples err alike.
+    likeness: f64,
     /// Standard error by other places that match nearly as well.
     doubt: f64,
     /// Power of what nothing explains around it, where that stands out: knocks, voices, a hand.

@@ -1,5 +1,6 @@
 //! Times and template in turn.
 
+use super::spread::likenesses;
 use super::template::{Sample, smoothed};
 use super::{Joint, ROUNDS, SEARCHES};
 use crate::detect::refine::interpolate::{KERNEL, maximum, shifted};
@@ -37,6 +38,13 @@ impl Joint {
                 self.learn_whole();
             }
             let jump = round < searches;
+            if jump && round > 0 {
+                // Likelihoods of places are only as far apart as samples err independently.
+                let likenesses = likenesses(self);
+                for (impact, likeness) in self.impacts.iter_mut().zip(likenesses) {
+                    impact.likeness = likeness;
+                }
+            }
             let count = self.impacts.len();
             let heads = (0..count)
                 .map(|i| self.settled(i, jump))
@@ -195,7 +203,13 @@ impl Joint {
         let shape = &self.template.shape(i)[..head];
         let coarse = impact.coarse - begin - real(self.template.before);
         let prior = (coarse, impact.jitter);
-        let found = best(&mut self.correlator, &samples, &noise, shape, prior, reach);
+        let found = best(
+            &mut self.correlator,
+            (&samples, &noise),
+            shape,
+            prior,
+            (reach, impact.likeness),
+        );
         if let Some(fit) = found {
             let impact = &mut self.impacts[i];
             impact.position = begin + fit.position + real(self.template.before);
@@ -320,14 +334,13 @@ const LEAST_ENERGY: f64 = 1e-9;
 ///
 /// # Formula
 /// `L(p) = (Σ w·x·s(· − p))²/(2 Σ w·s²(· − p))/scale − (p − prior)²/2σ²`: what a shape of positive amplitude explains,
-/// where what it leaves has the variance `scale`, at least 1.
+/// where what it leaves has the variance `scale`, at least 1, times the number of samples that err alike.
 pub(super) fn best(
     correlator: &mut Correlator,
-    samples: &[f64],
-    noise: &[f64],
+    (samples, noise): (&[f64], &[f64]),
     shape: &[f64],
     prior: (f64, f64),
-    reach: usize,
+    (reach, likeness): (usize, f64),
 ) -> Option<Fit> {
     let weighted: Vec<f64> = samples.iter().zip(noise).map(|(x, n)| x / n).collect();
     let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
@@ -357,7 +370,7 @@ pub(super) fn best(
         .zip(&weighted[top..])
         .map(|(x, w)| x * w)
         .sum();
-    let scale = ((all - 2.0 * explained(top)) / real(shape.len())).max(1.0);
+    let scale = likeness * ((all - 2.0 * explained(top)) / real(shape.len())).max(1.0);
     let peaks: Vec<(f64, f64, f64)> = inside
         .filter(|&k| {
             explained(k) >= RIVAL * explained(top)

@@ -25,30 +25,45 @@ const FAINTEST: f64 = 3.0;
 /// the same pulls make of the noise just before each impact, above what they would make of white noise, is added: hum
 /// and rumble that are left over last longer than a block.
 pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
-    let length = joint.template.head;
-    let samples: Vec<Sample> = (0..joint.impacts.len())
-        .map(|i| joint.sample(i, length))
-        .collect();
-    let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
-    let mut judged: Vec<Option<(f64, f64)>> = Vec::with_capacity(samples.len());
-    for (i, sample) in samples.iter().enumerate() {
-        judged.push(errors(
-            sample,
-            joint.template.shape(i),
-            joint.template.slopes(i),
-            &weights,
-        ));
-    }
+    let samples = heads(joint);
+    let judged = judged(joint, &samples);
     let excess = noise_excess(joint, &samples);
-    let ratio = |i: usize| {
-        let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(judged.len());
-        let ratios = judged[near].iter().flatten().map(|(a, b)| (b / a).powi(2));
-        let (sum, count) = ratios.fold((0.0, 0), |(s, n), r| (s + r, n + 1));
-        (sum / real(count) + excess).sqrt()
+    let std = |i: usize| {
+        let (independent, _) = judged[i]?;
+        Some(independent * (likeness(&judged, i) + excess).sqrt())
     };
-    (0..judged.len())
-        .map(|i| judged[i].map(|(independent, _)| independent * ratio(i)))
+    (0..judged.len()).map(std).collect()
+}
+
+/// How many times more than independent samples those of each impact move its match, in variance; at least 1.
+pub(super) fn likenesses(joint: &Joint) -> Vec<f64> {
+    let judged = judged(joint, &heads(joint));
+    let likeness = |i: usize| likeness(&judged, i).max(1.0);
+    (0..judged.len()).map(likeness).collect()
+}
+
+fn heads(joint: &Joint) -> Vec<Sample> {
+    let length = joint.template.head;
+    (0..joint.impacts.len())
+        .map(|i| joint.sample(i, length))
         .collect()
+}
+
+/// The standard errors of all impacts by independent samples and by blocks.
+fn judged(joint: &Joint, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
+    let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
+    let template = &joint.template;
+    let each = samples.iter().enumerate();
+    each.map(|(i, s)| errors(s, template.shape(i), template.slopes(i), &weights))
+        .collect()
+}
+
+/// The mean ratio of both variances among an impact and its neighbours; 1 if none is known.
+fn likeness(judged: &[Option<(f64, f64)>], i: usize) -> f64 {
+    let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(judged.len());
+    let ratios = judged[near].iter().flatten().map(|(a, b)| (b / a).powi(2));
+    let (sum, count) = ratios.fold((0.0, 0), |(s, n), r| (s + r, n + 1));
+    if count == 0 { 1.0 } else { sum / real(count) }
 }
 
 /// Stretches of noise before each impact that are pulled at, each half a head earlier than the next.
