@@ -89,10 +89,17 @@ pub(super) fn times(
     let onset = joint.onset();
     let in_recording = |position: f64| (real(start) + position + onset) / rate;
     let stds = spread::standard_errors(&joint);
+    let usual = joint.usual_move();
     let timed = joint.impacts.iter().zip(stds).map(|(impact, std)| {
         let std = std?.hypot(late.std(impact.slowness)).hypot(impact.doubt);
+        // Where rival places lie farther apart than the detector errs, the detector knows more.
+        let (position, std) = if impact.doubt > impact.jitter {
+            (impact.coarse + usual, impact.jitter)
+        } else {
+            (impact.position + late.shift(impact.slowness), std)
+        };
         Some(Timed {
-            time_s: in_recording(impact.position + late.shift(impact.slowness)),
+            time_s: in_recording(position),
             std_s: std / rate,
         })
     });
@@ -144,6 +151,14 @@ fn stretch(
 }
 
 impl Joint {
+    /// How far matches usually stand after the detector's times, in samples: the median.
+    fn usual_move(&self) -> f64 {
+        let moves = self.impacts.iter().map(|i| i.position - i.coarse);
+        let mut moves: Vec<f64> = moves.collect();
+        moves.sort_by(f64::total_cmp);
+        moves.get(moves.len() / 2).copied().unwrap_or(0.0)
+    }
+
     /// Where the template's sound begins, in samples after its nominal onset: the constant fraction of its rise.
     fn onset(&self) -> f64 {
         let window = super::Window {
