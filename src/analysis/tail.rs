@@ -5,7 +5,7 @@
 
 use super::Stretch;
 use crate::detect::matched;
-use crate::detect::refine::align;
+use crate::detect::refine::{Timing, refine};
 use crate::sequence::{self, Chain, Event};
 
 /// Where flights are shorter than this, in seconds, the sound of one impact reaches into the next.
@@ -37,8 +37,14 @@ pub(super) fn follow(
         .filter(|l| l.event.is_some())
         .map(|l| l.time_s - stretch.start_s)
         .collect();
-    // What is learnt from them is matched to a twentieth of a millisecond at best: no need to settle them.
-    let onsets = align(stretch.samples, stretch.sample_rate_hz, &heard);
+    let timed = refine(
+        stretch.samples,
+        stretch.sample_rate_hz,
+        &heard,
+        stretch.hop_s,
+        Timing::Correlation,
+    );
+    let onsets: Vec<f64> = timed.iter().map(|t| t.time_s).collect();
     let inside_s = (region_s.0 - stretch.start_s, region_s.1 - stretch.start_s);
     let Some(found) =
         matched::candidates(stretch.samples, stretch.sample_rate_hz, &onsets, inside_s)

@@ -214,6 +214,6 @@ fn the_budget_names_the_noise_that_rules_and_adds_up() {
         .budget;
     assert!(jittering.timing > scattering.timing, "{jittering:?}");
     for b in [scattering, jittering] {
-        assert!((b.timing + b.bounce + b.inputs + b.noise_sizes - 1.0).abs() < 1e-9);
+        assert!((b.timing + b.bounce + b.inputs + b.noise_sizes + b.model - 1.0).abs() < 1e-9);
     }
 }

@@ -105,7 +105,8 @@ pub struct Climb {
 /// Fits the rung chosen, or climbs as far as the recording supports.
 ///
 /// Evidence is the likelihood of the times with all parameters and the sizes of the noises integrated out over what is
-/// known of balls at large, so a parameter that buys nothing costs. None for fewer than three impacts.
+/// known of balls at large, so a parameter that buys nothing costs. The error of e counts in that another rung may be
+/// the right one. None for fewer than three impacts.
 #[must_use]
 pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Climb> {
     let (contact, drag) = (inputs.contact_s.is_some(), inputs.drag_per_s2.is_some());
@@ -133,7 +134,7 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
             best = i;
         }
     }
-    let candidates = fits
+    let candidates: Vec<Candidate> = fits
         .iter()
         .enumerate()
         .map(|(i, (rung, fit))| Candidate {
@@ -147,13 +148,28 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let alike = (0..fits.len())
         .find(|&i| rival(fits[i].0) && (gain(i) - gain(best)).abs() < ALIKE)
         .map(|i| fits[i].0.name);
+    let spread = spread(&candidates, best);
     let (_, fit) = fits.into_iter().nth(best)?;
     Some(Climb {
         selected: selected.name,
-        fit: fit.summary(),
+        fit: fit.summary().widened(spread),
         candidates,
         alike,
     })
+}
+
+/// How far ln e of the other rungs lies from that of the one taken, each by its odds: the root of
+/// `Σ w_k·(ln e_k − ln e)²`, `w_k ∝ exp(gain_k)`.
+fn spread(candidates: &[Candidate], taken: usize) -> f64 {
+    let best = &candidates[taken];
+    let (mut sum, mut weights) = (0.0, 0.0);
+    for candidate in candidates {
+        // A rung is not preferred by less than it costs, so the one taken may have the lower evidence.
+        let weight = (candidate.gain_nats - best.gain_nats).exp();
+        sum += weight * (candidate.restitution / best.restitution).ln().powi(2);
+        weights += weight;
+    }
+    (sum / weights).sqrt()
 }
 
 /// A term whose value is known is part of every rung and not a rung of its own.

@@ -69,7 +69,42 @@ pub struct Budget {
     pub inputs: f64,
     /// By not knowing the sizes of the noises.
     pub noise_sizes: f64,
+    /// By not knowing which model is right.
+    pub model: f64,
 }
+
+impl Fit {
+    /// The fit where ln e may be off by as much again as other models spread (one standard deviation): variances are
+    /// added, and both ends of the interval move out as those of a normal distribution would.
+    #[must_use]
+    pub fn widened(mut self, spread: f64) -> Self {
+        let Parameter {
+            value,
+            std,
+            interval95,
+        } = &mut self.ln_restitution;
+        if let (Some(std), Some(ends)) = (std, interval95) {
+            let reach = |end: f64| (end - *value).hypot(NORMAL95 * spread);
+            *ends = [*value - reach(ends[0]), *value + reach(ends[1])];
+            let own = (*std / std.hypot(spread).max(f64::MIN_POSITIVE)).powi(2);
+            *std = std.hypot(spread);
+            let b = &mut self.budget;
+            for share in [
+                &mut b.timing,
+                &mut b.bounce,
+                &mut b.inputs,
+                &mut b.noise_sizes,
+            ] {
+                *share *= own;
+            }
+            b.model = 1.0 - own;
+        }
+        self
+    }
+}
+
+/// Standard deviations of a normal distribution within which 95 % lie.
+const NORMAL95: f64 = 1.959_964;
 
 /// Fits a model. None for fewer than three impacts, a flight that is not longer than the contact, or parameters that run
 /// away.
@@ -354,5 +389,6 @@ fn budget(bounces: &Bounces, noise: &Noise, priors: &[Prior], posterior: &Poster
         bounce: bounce / total,
         inputs: inputs / total,
         noise_sizes: noise_sizes / total,
+        model: 0.0,
     }
 }

@@ -132,6 +132,7 @@ fn causes(budget: &Budget) -> String {
         ("errors of the times", budget.timing),
         ("contact, drag and speed", budget.inputs),
         ("few bounces to judge the scatter by", budget.noise_sizes),
+        ("which model is right", budget.model),
     ];
     causes.sort_by(|a, b| b.1.total_cmp(&a.1));
     let named = causes.iter().filter(|(_, share)| *share >= 0.01);
