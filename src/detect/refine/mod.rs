@@ -89,22 +89,6 @@ pub fn refine(
     timed.collect()
 }
 
-/// Onsets of the impacts of one drop, in seconds, given coarse times in ascending order: each is matched with those
-/// next to it, once. That is good to some hundredths of a millisecond, and several times as fast as [`refine`].
-#[must_use]
-pub fn align(samples: &[f32], sample_rate_hz: f64, coarse_s: &[f64]) -> Vec<f64> {
-    let whitener = whiten::Whitener::learn(samples, sample_rate_hz, coarse_s);
-    let aligned = joint::aligned(samples, sample_rate_hz, coarse_s, &whitener);
-    let mut aligned = aligned.into_iter().flatten();
-    let times = coarse_s.iter().map(|&time_s| {
-        let by_fraction =
-            || by_fraction(samples, sample_rate_hz, time_s, &whitener).map(|t| t.time_s);
-        let time = aligned.next().flatten();
-        time.or_else(by_fraction).unwrap_or(time_s)
-    });
-    times.collect()
-}
-
 /// The time of one impact by its own rise.
 fn by_fraction(
     samples: &[f32],

@@ -106,22 +106,6 @@ pub(super) fn times(
     Some(timed.collect())
 }
 
-/// Onsets of the impacts in seconds by the first alignment alone; none as for [`times`].
-pub(super) fn aligned(
-    samples: &[f32],
-    rate: f64,
-    coarse_s: &[f64],
-    whitener: &Whitener,
-) -> Option<Vec<Option<f64>>> {
-    let (start, joint) = started(samples, rate, coarse_s, whitener)?;
-    let onset = real(start) + joint.onset();
-    let times = joint.impacts.iter().map(|impact| {
-        let matched = impact.amplitude > align::FAINT;
-        matched.then_some((impact.position + onset) / rate)
-    });
-    Some(times.collect())
-}
-
 /// The impacts in their first alignment, and the sample that their stretch begins at.
 fn started(
     samples: &[f32],
