@@ -14,8 +14,9 @@ const AROUND_S: f64 = 0.5;
 const QUIET_SHARE: f64 = 0.2;
 /// White noise added before solving, as a share of the power: without it a pure hum has no inverse.
 const REGULARISATION: f64 = 1e-9;
-/// Noise is taken to be at least this share of full scale: half a step of a 16-bit recording.
-const LEAST_NOISE: f64 = 1e-5;
+/// Noise is taken to be at least this share of full scale: a tenth of what rounding to 16 bits leaves, so that a quiet
+/// recording is timed as a loud one is.
+const LEAST_NOISE: f64 = 1e-6;
 
 /// `y[n] = (x[n] − Σ a_k·x[n−k]) / σ`, with unit variance where the recording is quiet.
 #[derive(Debug, Clone)]
