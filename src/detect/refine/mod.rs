@@ -2,7 +2,7 @@
 //!
 //! The recording is first [whitened](mod@whiten), so that hum and rumble do not matter and the noise left is white. Then
 //! each impact is timed by a [constant fraction](mod@fraction) of its own rise, which does not walk with loudness, or all
-//! are timed [together](mod@joint) by the sound that they have in common, which uses all of it.
+//! are timed together (`joint`) by the sound that they have in common, which uses all of it.
 
 pub mod fraction;
 pub mod interpolate;
