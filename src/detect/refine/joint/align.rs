@@ -13,8 +13,8 @@ const FIRST_S: f64 = 12e-3;
 const SHORTEST_S: f64 = 4e-3;
 /// Neighbours whose mean an impact is matched with.
 const NEIGHBOURS: usize = 3;
-/// An impact that speeds up this slowly is this share of a period off at most; the detector's times are no better than
-/// the least jitter, nor worse than the most, in seconds.
+/// The detector's times are off by this share of the sound's period (one standard deviation), and within these bounds in
+/// seconds whatever the sound.
 const JITTER_PERIODS: f64 = 0.3;
 const JITTER_S: (f64, f64) = (0.5e-3, 1.5e-3);
 /// Nor is an impact off by more than this share of a flight (one standard deviation): it was found where the flights
