@@ -41,6 +41,7 @@ scenes!(
     "late-start",
     "early-stop",
     "three-drops",
+    "two-balls",
     "speech",
     "noisy",
     "footsteps",
