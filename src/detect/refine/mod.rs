@@ -80,13 +80,13 @@ pub fn refine(
     } else {
         None
     };
-    let mut together = together.into_iter().flatten();
-    let timed = grid.into_iter().map(|grid| {
-        let by_fraction = || by_fraction(samples, sample_rate_hz, grid.time_s, &whitener);
-        let time = together.next().flatten();
-        time.or_else(by_fraction).unwrap_or(grid)
-    });
-    timed.collect()
+    // One drop is timed in one way: what its impacts have in common then cancels.
+    together.unwrap_or_else(|| {
+        let each = grid.into_iter().map(|grid| {
+            by_fraction(samples, sample_rate_hz, grid.time_s, &whitener).unwrap_or(grid)
+        });
+        each.collect()
+    })
 }
 
 /// The time of one impact by its own rise.

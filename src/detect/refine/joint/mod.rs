@@ -76,14 +76,14 @@ struct Joint {
     correlator: Correlator,
 }
 
-/// Times of the impacts from coarse times in ascending order; none for an impact that does not resemble the others, or
-/// for all if there are fewer than three.
+/// Times of the impacts from coarse times in ascending order; an impact that does not resemble the others keeps the
+/// detector's. None if there are fewer than three.
 pub(super) fn times(
     samples: &[f32],
     rate: f64,
     coarse_s: &[f64],
     whitener: &Whitener,
-) -> Option<Vec<Option<Timed>>> {
+) -> Option<Vec<Timed>> {
     let (start, mut joint) = started(samples, rate, coarse_s, whitener)?;
     let late = drift::follow(&mut joint);
     let onset = joint.onset();
@@ -91,17 +91,19 @@ pub(super) fn times(
     let stds = spread::standard_errors(&joint);
     let usual = joint.usual_move();
     let timed = joint.impacts.iter().zip(stds).map(|(impact, std)| {
-        let std = std?.hypot(late.std(impact.slowness)).hypot(impact.doubt);
-        // Where rival places lie farther apart than the detector errs, the detector knows more.
-        let (position, std) = if impact.doubt > impact.jitter {
-            (impact.coarse + usual, impact.jitter)
-        } else {
-            (impact.position + late.shift(impact.slowness), std)
+        let (position, std) = match std {
+            Some(std) if impact.doubt <= impact.jitter => {
+                let drift = late.std(impact.slowness);
+                let position = impact.position + late.shift(impact.slowness);
+                (position, std.hypot(drift).hypot(impact.doubt))
+            }
+            // It does not resemble the others, or rival places lie farther apart than the detector errs.
+            _ => (impact.coarse + usual, impact.jitter),
         };
-        Some(Timed {
+        Timed {
             time_s: in_recording(position),
             std_s: std / rate,
-        })
+        }
     });
     Some(timed.collect())
 }

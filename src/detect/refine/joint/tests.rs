@@ -84,10 +84,7 @@ fn errors(ball: &Ball, onsets_s: &[f64]) -> Vec<(f64, f64)> {
     let mut found: Vec<(f64, f64)> = timed
         .iter()
         .zip(onsets_s)
-        .map(|(t, onset)| {
-            let t = t.unwrap();
-            (1e6 * (t.time_s - onset), 1e6 * t.std_s)
-        })
+        .map(|(t, onset)| (1e6 * (t.time_s - onset), 1e6 * t.std_s))
         .collect();
     let mut sorted: Vec<f64> = found.iter().map(|f| f.0).collect();
     sorted.sort_by(f64::total_cmp);
@@ -144,4 +141,33 @@ fn a_contact_that_lasts_longer_when_slow_does_not_make_times_walk() {
     // Half of what the contact takes longer would be 170 us from the first impact to the last.
     let (first, last) = (found[1].0, found[22].0);
     assert!((last - first).abs() < 25.0, "{first} us to {last} us");
+}
+
+#[test]
+fn an_impact_unlike_the_others_keeps_the_detectors_time_and_says_so() {
+    let click = Ball {
+        contact_s: 1e-4,
+        hertz: false,
+        modes_hz: [5_200.0, 9_700.0],
+        decay_s: 3e-3,
+    };
+    let onsets_s = onsets(12, 0.4, 0.85);
+    let mut samples = click.recorded(&onsets_s, 1);
+    let mut rng = SplitMix64::new(9);
+    let odd = samples_in(onsets_s[5] * RATE, 1.0);
+    for x in &mut samples[odd..odd + 400] {
+        #[expect(clippy::cast_possible_truncation, reason = "test samples")]
+        let noise = (0.3 * rng.normal()) as f32;
+        *x = noise;
+    }
+    let whitener = Whitener::learn(&samples, RATE, &onsets_s);
+    let timed = times(&samples, RATE, &onsets_s, &whitener).unwrap();
+    let stds: Vec<f64> = timed.iter().map(|t| t.std_s).collect();
+    assert!(stds[5] > 1e-4, "stated {} s", stds[5]);
+    let others = stds.iter().enumerate().filter(|&(i, _)| i != 5);
+    for (i, std) in others {
+        assert!(*std < 0.2 * stds[5], "impact {i} suffers: {std} s");
+    }
+    let moved = |i: usize| timed[i].time_s - onsets_s[i];
+    assert!((moved(5) - moved(4)).abs() < stds[5]);
 }
