@@ -167,7 +167,7 @@ impl Density {
         };
         let stretches = bounces.ln_stretch.iter().zip(&bounces.stretching);
         for (own, (ln, stretching)) in noise.own_shares(sizes).zip(stretches) {
-            density.ln += own * ln;
+            density.ln += ln;
             for (pull, s) in density.pull.iter_mut().zip(stretching) {
                 *pull += own * s;
             }

@@ -68,6 +68,23 @@ impl Noise {
         }))
     }
 
+    /// Fisher's information on `ln σ_e²`, up to a factor of 2.
+    ///
+    /// # Formula
+    /// `Σ (σ²/(σ² + λᵢ))²`, λ the eigenvalues of the timing part (for equal w): how many bounces' own noise is seen. With
+    /// `L = ln|Σ|` and `u = ln σ_e²` it is `L′ − L″`, taken by differences.
+    pub(super) fn information(&self, sizes: Sizes) -> Option<f64> {
+        const STEP: f64 = 0.2;
+        let ln = |step: f64| {
+            let bounce = sizes.bounce * (0.5 * step).exp();
+            Some(self.factors(Sizes { bounce, ..sizes })?.ln_determinant())
+        };
+        let (less, same, more) = (ln(-STEP)?, ln(0.0)?, ln(STEP)?);
+        let first = (more - less) / (2.0 * STEP);
+        let second = (more - 2.0 * same + less) / (STEP * STEP);
+        Some((first - second).max(f64::MIN_POSITIVE))
+    }
+
     /// `aᵀ·A·diag(s²)·Aᵀ·a` and `aᵀ·diag(w)·a`: what the noises of unit size make of a weighted sum of ln e.
     pub(super) fn shares(&self, weights: &[f64]) -> (f64, f64) {
         let row = |(i, row): (usize, &[f64; 3])| -> f64 {

@@ -44,15 +44,13 @@ impl Posterior {
     /// prior that of a scale. Well below it nothing can be told of `σ_e`; that the data do not show it is no reason to
     /// believe that it is nothing, so small values count less, as in Jeffreys' prior for a variance beside a known one.
     pub(super) fn over_noise(bounces: &Bounces, noise: &Noise, priors: &[Prior]) -> Option<Self> {
-        let floor = floor(noise);
         let at = |ln_bounce: f64, timing: f64| {
             let sizes = Sizes {
                 bounce: ln_bounce.exp(),
                 timing,
             };
             let solution = solve(bounces, noise, sizes, priors)?;
-            // The density by ln σ_e is that by σ_e times σ_e.
-            let prior = (sizes.bounce.powi(2) / (sizes.bounce.powi(2) + floor.powi(2))).ln();
+            let prior = 0.5 * noise.information(sizes)?.ln();
             Some((solution.ln_likelihood + prior, sizes, solution))
         };
         let (range, _) = range(|ln_bounce| Some((at(ln_bounce, 1.0)?.0, ())))?;
@@ -139,13 +137,6 @@ pub(super) fn likeliest(
 
 /// Forty standard deviations halved this often leave a millionth of one.
 const BISECTIONS: usize = 26;
-
-/// τ: the harmonic mean of the timing variances, as a standard deviation.
-fn floor(noise: &Noise) -> f64 {
-    let variances = noise.timing_variances();
-    let count = real(variances.len());
-    (count / variances.map(|v| 1.0 / v).sum::<f64>()).sqrt()
-}
 
 /// The part of the range of `ln σ_e` that matters, in fine steps, and about where in it the density is greatest.
 fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)> {

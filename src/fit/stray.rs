@@ -1,10 +1,12 @@
 //! Bounces and times that stray: they are kept, and count for little.
 
+use super::least_squares::solve;
 use super::model::{State, pulls, time_pull};
+use super::noise::Sizes;
 use super::posterior::likeliest;
 
-/// One bounce or time in two hundred strays.
-const SHARE: f64 = 0.005;
+/// Nats that a stray has to be worth: one bounce or time in two hundred strays, `ln((1 − q)/q)` with q = 0.005.
+const PRICE: f64 = 5.293_304_824_724_492;
 /// A wild bounce scatters ten times as much as others.
 const WILDNESS: f64 = 100.0;
 /// A stray time is off by this share of the flights around it: another sound in its place.
@@ -25,13 +27,16 @@ pub struct Strays {
     pub times: Vec<usize>,
 }
 
-/// Finds strays one by one, the clearest first, then those that hide one another, and lets them count less.
+/// Finds strays that hide one another, then others one by one, the clearest first, and lets them count less.
 ///
-/// A stray is believed where the data are likelier with it than without by more than strays are rarer than others:
-/// `ln L' − ln L > ln((1 − q)/q)`, q = 0.005, each at its likeliest scatter.
+/// A stray is believed where the data are likelier with it than without by more than strays are rarer than others, each
+/// at its likeliest scatter.
 pub(super) fn find(state: &mut State<'_>) -> Option<Strays> {
     let impacts = state.time_variances.len();
-    let mut strays = Strays::default();
+    let mut strays = Strays {
+        times: crowd(state)?,
+        ..Strays::default()
+    };
     while impacts >= FEWEST && strays.bounces.len() + strays.times.len() < impacts / MOST {
         let Some((now, bounce, time)) = suspects(state) else {
             break;
@@ -41,7 +46,7 @@ pub(super) fn find(state: &mut State<'_>) -> Option<Strays> {
         let mut with_time = state.clone();
         with_time.time_variances[time] += (STRAY_TIME * state.shorter_flight(time)).powi(2);
         let (by_bounce, by_time) = (likelihood(&with_bounce)?, likelihood(&with_time)?);
-        if by_bounce.max(by_time) - now < ((1.0 - SHARE) / SHARE).ln() {
+        if by_bounce.max(by_time) - now < PRICE {
             break;
         }
         if by_bounce >= by_time {
@@ -53,51 +58,89 @@ pub(super) fn find(state: &mut State<'_>) -> Option<Strays> {
         }
         state.settle()?;
     }
-    let crowd = crowd(state, &strays)?;
-    strays.times.extend(crowd);
     strays.bounces.sort_unstable();
     strays.times.sort_unstable();
     Some(strays)
 }
 
 /// Times that stray together, as at the end of a drop where nothing is clear any more: many strays hide one another, for
-/// the scatter of all bounces grows by them. So what lies far from the median is tried as a whole, at the price of each.
-///
-/// Bounces next to a stray that is known already are off because of it.
-fn crowd(state: &mut State<'_>, known: &Strays) -> Option<Vec<usize>> {
+/// the scatter of all bounces grows by them. So they are sought where bounces scatter as half of them do, the farthest
+/// first, and tried as a whole, at the price of each.
+fn crowd(state: &mut State<'_>) -> Option<Vec<usize>> {
     let impacts = state.time_variances.len();
     let bounces = state.bounces()?;
     let middle = median(bounces.ln_e.clone());
     let off: Vec<f64> = bounces.ln_e.iter().map(|z| (z - middle).abs()).collect();
-    let usual = MAD_TO_STD * median(off.clone());
-    let mut suspects: Vec<usize> = (0..off.len()).filter(|&j| off[j] > FAR * usual).collect();
-    suspects.sort_by(|&a, &b| off[b].total_cmp(&off[a]));
-    // A stray time moves the bounce there most, and the bounces next to it the other way.
-    let mut far: Vec<usize> = Vec::new();
-    for impact in suspects.into_iter().map(|j| j + 1) {
-        let mut named = far.iter().chain(&known.times).chain(&known.bounces);
-        if named.all(|n| n.abs_diff(impact) > 1) {
-            far.push(impact);
-        }
-    }
-    let count = far.len() + known.bounces.len() + known.times.len();
-    if impacts < FEWEST || far.len() < 2 || count > impacts / MOST {
+    let sizes = Sizes {
+        bounce: MAD_TO_STD * median(off.clone()),
+        timing: 1.0,
+    };
+    let suspects = off.iter().filter(|&&z| z > FAR * sizes.bounce).count();
+    if impacts < FEWEST || suspects < 2 || sizes.bounce <= 0.0 {
         return Some(Vec::new());
     }
-    let mut without = state.clone();
-    for &time in &far {
-        without.time_variances[time] += (STRAY_TIME * state.shorter_flight(time)).powi(2);
+    let far = far_times(state, sizes)?;
+    let without = |far: &[usize]| {
+        let mut without = state.clone();
+        for &time in far {
+            without.time_variances[time] += (STRAY_TIME * state.shorter_flight(time)).powi(2);
+        }
+        Some((likelihood(&without)?, without))
+    };
+    // Between two strays a time looks like a third: only those stay that the others do not explain.
+    let mut kept = far.clone();
+    for time in far {
+        let others: Vec<usize> = kept.iter().copied().filter(|&t| t != time).collect();
+        if without(&kept)?.0 - without(&others)?.0 < PRICE {
+            kept = others;
+        }
     }
-    let price = crate::units::real(far.len()) * ((1.0 - SHARE) / SHARE).ln();
-    if likelihood(&without)? - likelihood(state)? < price {
+    let (by_all, without) = without(&kept)?;
+    if kept.len() < 2 || by_all - likelihood(state)? < PRICE * crate::units::real(kept.len()) {
         return Some(Vec::new());
     }
     *state = without;
     state.settle()?;
+    Some(kept)
+}
+
+/// Times that are far off where bounces scatter by so much, the farthest first.
+fn far_times(state: &State<'_>, sizes: Sizes) -> Option<Vec<usize>> {
+    let mut without = state.clone();
+    let mut far = Vec::new();
+    while far.len() < state.time_variances.len() / MOST {
+        let Some(time) = farthest_time(&without, sizes)? else {
+            break;
+        };
+        // Until all are found it says nothing of its neighbours.
+        without.time_variances[time] += state.shorter_flight(time).powi(2);
+        far.push(time);
+    }
     Some(far)
 }
 
-/// What lies farther from the median than this many robust standard deviations is looked at together.
+/// The time that is off by most of its own scatter, `|aᵀΣ⁻¹r|/√(aᵀΣ⁻¹a)`, if that is far; a are the slopes of ln e by it.
+fn farthest_time(state: &State<'_>, sizes: Sizes) -> Option<Option<usize>> {
+    let bounces = state.bounces()?;
+    let noise = state.noise(&bounces);
+    let solution = solve(&bounces, &noise, sizes, &state.priors())?;
+    let pulls = pulls(&bounces, &noise, sizes, &solution)?;
+    let factors = noise.factors(sizes)?;
+    let off = (0..state.time_variances.len()).map(|k| {
+        let mut slopes = vec![0.0; pulls.len()];
+        for side in 0..3 {
+            if let Some(j) = k.checked_sub(side).filter(|&j| j < slopes.len()) {
+                slopes[j] = bounces.slopes[j][side];
+            }
+        }
+        let scatter = time_pull(&bounces, &factors.solve(&slopes), k);
+        (time_pull(&bounces, &pulls, k).abs() / scatter.sqrt(), k)
+    });
+    let farthest = off.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some((farthest.0 > FAR).then_some(farthest.1))
+}
+
+/// What is off by more than this many robust standard deviations is looked at together.
 const FAR: f64 = 5.0;
 /// The standard deviation of a normal distribution over its median absolute deviation.
 const MAD_TO_STD: f64 = 1.4826;
