@@ -100,6 +100,7 @@ fn run(cell: &Cell, drops: usize) {
             std: 2.0,
         }),
         speed: None,
+        weight: false,
     };
     let mut rng = SplitMix64::new(7);
     let (mut held, mut counted, mut none) = (0usize, 0usize, 0usize);

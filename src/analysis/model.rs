@@ -140,7 +140,9 @@ fn ball(climb: &Climb, inputs: &Inputs, settings: &Settings) -> Option<Ball> {
     if low <= 0.0 || high >= UNDETERMINED * low {
         return None;
     }
-    let restitution = Ratio::from_ln(climb.fit.ln_restitution.value).ok()?;
+    // What (14) to (17) invert is e of fast impacts.
+    let ln_fast = climb.fit.ln_restitution.value + climb.fit.ln_fast_gain;
+    let restitution = Ratio::from_ln(ln_fast).ok()?;
     let oscillator = Oscillator::from_contact(restitution, contact.value).ok()?;
     let errors = ContactErrors {
         restitution: restitution.value() * climb.fit.ln_restitution.std?,

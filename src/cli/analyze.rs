@@ -117,6 +117,8 @@ enum ModelChoice {
     Constant,
     /// The time in contact stands in every interval
     Contact,
+    /// A linear ball with weight: slow impacts last longer and lose more
+    Linear,
     /// The air slows the ball
     Drag,
     /// e is a power of the impact speed
@@ -129,6 +131,7 @@ impl From<ModelChoice> for Choice {
             ModelChoice::Auto => Self::Auto,
             ModelChoice::Constant => Self::Constant,
             ModelChoice::Contact => Self::Contact,
+            ModelChoice::Linear => Self::Linear,
             ModelChoice::Drag => Self::Drag,
             ModelChoice::Speed => Self::Speed,
         }

@@ -4,7 +4,7 @@ use super::bounces::{Known, Terms};
 use super::flights::Impact;
 use super::ladder::{Choice, Inputs, climb};
 use super::model::fit;
-use crate::physics::FlightLaw;
+use crate::physics::{FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
 use crate::random::SplitMix64;
 use crate::units::real;
 
@@ -114,6 +114,7 @@ fn contact_and_drag_that_are_fitted_keep_the_interval_true() {
             std: 2.0,
         }),
         speed: None,
+        weight: false,
     };
     let share = made.coverage(&terms, DROPS);
     assert!(COVERAGE.contains(&share), "{share}");
@@ -215,5 +216,52 @@ fn the_budget_names_the_noise_that_rules_and_adds_up() {
     assert!(jittering.timing > scattering.timing, "{jittering:?}");
     for b in [scattering, jittering] {
         assert!((b.timing + b.bounce + b.inputs + b.noise_sizes + b.model - 1.0).abs() < 1e-9);
+    }
+}
+
+/// A drop of the linear ball with its weight, by the exact contact.
+fn linear_drop(e: f64, contact_s: f64, impacts: usize, rng: &mut SplitMix64) -> Vec<Impact> {
+    let ball = Oscillator::from_contact(Restitution::new(e).unwrap(), contact_s).unwrap();
+    let contact = LinearContact::new(ball, 9.81, ReleaseRule::ZeroDisplacement).unwrap();
+    let (mut at_s, mut speed) = (0.0, 0.3 * 9.81);
+    let mut made = Vec::new();
+    for _ in 0..impacts {
+        made.push(Impact {
+            time_s: at_s + 5e-6 * rng.normal(),
+            std_s: 5e-6,
+            heard: true,
+        });
+        let Rebound::Leaves(leaving) = contact.rebound(speed).unwrap() else {
+            panic!("it leaves");
+        };
+        speed = leaving.speed_m_per_s * (0.003 * rng.normal()).exp();
+        at_s += leaving.contact_time_s + 2.0 * speed / 9.81;
+    }
+    made
+}
+
+#[test]
+fn a_linear_balls_contact_and_e_come_back_on_its_own_rung() {
+    const DROPS: usize = 60;
+    for (e, contact_s, impacts) in [(0.9_f64, 1e-3, 36), (0.8, 5e-3, 12)] {
+        let mut rng = SplitMix64::new(12);
+        let (mut contacts, mut fasts) = (0, 0);
+        for _ in 0..DROPS {
+            let made = linear_drop(e, contact_s, impacts, &mut rng);
+            let climb = climb(&made, &Inputs::default(), Choice::Linear).unwrap();
+            let [low, high] = climb.fit.contact_s.unwrap().interval95.unwrap();
+            contacts += usize::from(low <= contact_s && contact_s <= high);
+            let fast = climb.fit.ln_restitution.value + climb.fit.ln_fast_gain;
+            let std = climb.fit.ln_restitution.std.unwrap();
+            fasts += usize::from((fast - e.ln()).abs() < 3.0 * std);
+        }
+        assert!(
+            contacts * 100 >= 80 * DROPS,
+            "{contacts} of {DROPS} at {contact_s} s"
+        );
+        assert!(
+            fasts * 100 >= 95 * DROPS,
+            "{fasts} of {DROPS} at {contact_s} s"
+        );
     }
 }

@@ -15,6 +15,8 @@ pub enum Choice {
     Constant,
     /// And the time in contact, which stands in every interval.
     Contact,
+    /// And a linear ball that has this contact time: by its weight slow impacts last longer and lose more.
+    Linear,
     /// And the drag of the air.
     Drag,
     /// And a power of the impact speed.
@@ -37,39 +39,76 @@ struct Rung {
     contact: bool,
     drag: bool,
     speed: bool,
+    weight: bool,
 }
+
+/// Constant e.
+const CONSTANT: Rung = Rung {
+    name: "constant",
+    contact: false,
+    drag: false,
+    speed: false,
+    weight: false,
+};
+
+/// And the contact time.
+const CONTACT: Rung = Rung {
+    name: "contact",
+    contact: true,
+    ..CONSTANT
+};
+
+/// And the weight of a linear ball.
+const LINEAR: Rung = Rung {
+    name: "linear",
+    weight: true,
+    ..CONTACT
+};
 
 /// From the simplest up. A model is compared with those that stand before it.
-const RUNGS: [Rung; 6] = [
-    rung("constant", false, false, false),
-    rung("contact", true, false, false),
-    rung("drag", false, true, false),
-    rung("speed", false, false, true),
-    rung("contact+drag", true, true, false),
-    rung("contact+speed", true, false, true),
+const RUNGS: [Rung; 8] = [
+    CONSTANT,
+    CONTACT,
+    LINEAR,
+    Rung {
+        name: "drag",
+        drag: true,
+        ..CONSTANT
+    },
+    Rung {
+        name: "speed",
+        speed: true,
+        ..CONSTANT
+    },
+    Rung {
+        name: "contact+drag",
+        drag: true,
+        ..CONTACT
+    },
+    Rung {
+        name: "linear+drag",
+        drag: true,
+        ..LINEAR
+    },
+    Rung {
+        name: "contact+speed",
+        speed: true,
+        ..CONTACT
+    },
 ];
 
-const fn rung(name: &'static str, contact: bool, drag: bool, speed: bool) -> Rung {
-    Rung {
-        name,
-        contact,
-        drag,
-        speed,
-    }
-}
-
 /// C of balls at large, in seconds: from a steel ball's tenth of a millisecond to a basketball's twelve.
-const CONTACT: Known = Known {
+const CONTACT_KNOWN: Known = Known {
     value: 2e-3,
     std: 4e-3,
 };
 /// K of balls at large, s⁻²: nearly 0 for steel, 1.4 for a ping-pong ball, 5 for a foam ball.
-const DRAG: Known = Known {
+const DRAG_KNOWN: Known = Known {
     value: 1.0,
     std: 2.0,
 };
 /// p of balls at large: e of a tennis ball falls by 6 % where the speed grows by e, that of a plastic one by 25 %.
-const EXPONENT: Known = Known {
+const EXPONENT_KNOWN: Known = Known {
     value: 0.05,
     std: 0.1,
 };
@@ -113,6 +152,7 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let wanted = |rung: &Rung| match choice {
         Choice::Auto => true,
         Choice::Contact if !contact => rung.name == "contact",
+        Choice::Linear => rung.weight && !rung.drag,
         Choice::Drag if !drag => rung.name == "drag",
         Choice::Speed => rung.name == "speed",
         // What is known is in every rung.
@@ -129,7 +169,7 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let mut best = 0;
     for (i, (rung, _)) in fits.iter().enumerate() {
         // Two parameters have to earn twice as much as one.
-        let dearer = parameters(rung) - parameters(fits[best].0);
+        let dearer = parameters(rung, inputs) - parameters(fits[best].0, inputs);
         if gain(i) > gain(best) + WORTH * dearer.max(0.0) {
             best = i;
         }
@@ -174,20 +214,28 @@ fn spread(candidates: &[Candidate], taken: usize) -> f64 {
 
 /// A term whose value is known is part of every rung and not a rung of its own.
 const fn is_fitted(rung: &Rung, inputs: &Inputs) -> bool {
-    !(rung.contact && inputs.contact_s.is_some() || rung.drag && inputs.drag_per_s2.is_some())
+    // The weight is: it comes with a contact, known or not.
+    let contact_known = rung.contact && !rung.weight && inputs.contact_s.is_some();
+    !(contact_known || rung.drag && inputs.drag_per_s2.is_some())
 }
 
 fn terms(rung: &Rung, inputs: &Inputs) -> Terms {
     Terms {
-        contact: inputs.contact_s.or_else(|| rung.contact.then_some(CONTACT)),
-        drag: inputs.drag_per_s2.or_else(|| rung.drag.then_some(DRAG)),
-        speed: rung.speed.then_some(EXPONENT),
+        contact: inputs
+            .contact_s
+            .or_else(|| rung.contact.then_some(CONTACT_KNOWN)),
+        drag: inputs
+            .drag_per_s2
+            .or_else(|| rung.drag.then_some(DRAG_KNOWN)),
+        speed: rung.speed.then_some(EXPONENT_KNOWN),
+        weight: rung.weight,
     }
 }
 
 /// How many parameters a rung fits.
-fn parameters(rung: &Rung) -> f64 {
-    [rung.contact, rung.drag, rung.speed]
+fn parameters(rung: &Rung, inputs: &Inputs) -> f64 {
+    let contact = rung.contact && inputs.contact_s.is_none();
+    [contact, rung.drag, rung.speed]
         .iter()
         .filter(|on| **on)
         .map(|_| 1.0)

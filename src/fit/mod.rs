@@ -13,6 +13,7 @@ mod noise;
 mod posterior;
 pub mod stray;
 pub mod total_time;
+mod weight;
 
 pub use flights::Flights;
 

@@ -19,6 +19,10 @@ const SETTLED: f64 = 1e-3;
 const RUNAWAY: f64 = 0.2;
 /// C is shorter than any interval by this share, K no greater than that of a balloon.
 const LONGEST_CONTACT: f64 = 0.9;
+/// A linear ball on which its weight rests for longer would hardly leave.
+const LONGEST_LINEAR_CONTACT: f64 = 0.45;
+/// e of a linear ball is below 1 by this at least, or it has no damping.
+const LEAST_LN_LOSS: f64 = -1e-4;
 const GREATEST_DRAG: f64 = 100.0;
 
 /// A model fitted to a drop.
@@ -27,8 +31,10 @@ pub struct Fit {
     /// ln e at the mean speed: mean, standard deviation, and the ends of the interval that holds it with 95 %; none
     /// for one ratio alone.
     pub ln_restitution: Parameter,
-    /// C in seconds, if the model has it.
+    /// C in seconds, if the model has it; of fast impacts for a linear ball.
     pub contact_s: Option<Parameter>,
+    /// ln e of fast impacts less ln e: above 0 for a linear ball, whose weight takes more from slow ones.
+    pub ln_fast_gain: f64,
     /// K in s⁻², if the model has it.
     pub drag_per_s2: Option<Parameter>,
     /// p, if the model has it.
@@ -169,6 +175,7 @@ impl<'a> Fitted<'a> {
             drag_per_s2: next(terms.drag, values.drag_per_s2),
             exponent: next(terms.speed, 0.0),
             ln_restitution: self.parameter(0, 0.0),
+            ln_fast_gain: -self.bounces.mean_loss,
             bounce_std: self.posterior.mean_of(|n, _| n.bounce),
             timing_scale: self.posterior.mean_of(|n, _| n.timing),
             mean_speed_s: self.bounces.mean_ln_speed.exp(),
@@ -234,6 +241,7 @@ impl<'a> State<'a> {
             time_variances,
             wildness: vec![1.0; impacts.len() - 2],
         };
+        state.values.ln_fast_restitution = state.middle_ratio().ln().min(LEAST_LN_LOSS);
         state.set_values(centre(terms.contact), centre(terms.drag));
         state
     }
@@ -241,10 +249,26 @@ impl<'a> State<'a> {
     fn set_values(&mut self, contact_s: f64, drag_per_s2: f64) {
         let shortest = self.trial_s.windows(2).map(|w| w[1] - w[0]);
         let shortest = shortest.fold(f64::INFINITY, f64::min);
-        self.values = Values {
-            contact_s: contact_s.clamp(0.0, LONGEST_CONTACT * shortest.max(0.0)),
-            drag_per_s2: drag_per_s2.clamp(0.0, GREATEST_DRAG),
-        };
+        let longest = self.longest_contact() * shortest.max(0.0);
+        self.values.contact_s = contact_s.clamp(0.0, longest);
+        self.values.drag_per_s2 = drag_per_s2.clamp(0.0, GREATEST_DRAG);
+    }
+
+    /// C in shortest intervals.
+    const fn longest_contact(&self) -> f64 {
+        if self.terms.weight {
+            LONGEST_LINEAR_CONTACT
+        } else {
+            LONGEST_CONTACT
+        }
+    }
+
+    /// The median ratio of intervals.
+    fn middle_ratio(&self) -> f64 {
+        let triples = self.trial_s.windows(3);
+        let mut ratios: Vec<f64> = triples.map(|t| (t[2] - t[1]) / (t[1] - t[0])).collect();
+        ratios.sort_by(f64::total_cmp);
+        ratios[ratios.len() / 2]
     }
 
     /// The length of the shorter flight next to an impact.
@@ -315,10 +339,13 @@ impl<'a> State<'a> {
             self.values.drag_per_s2 + drag,
         );
         let before = self.values;
+        let fast = solution.values[0] - bounces.mean_loss;
+        self.values.ln_fast_restitution = fast.min(LEAST_LN_LOSS);
         self.set_values(contact_s, drag_per_s2);
         let shortest = self.shorter.iter().copied().fold(f64::INFINITY, f64::min);
         // A value that is held back at its greatest is no solution.
-        let held_back = contact_s > LONGEST_CONTACT * shortest || drag_per_s2 > GREATEST_DRAG;
+        let held_back =
+            contact_s > self.longest_contact() * shortest || drag_per_s2 > GREATEST_DRAG;
         if held_back {
             return Some(f64::INFINITY);
         }

@@ -1,6 +1,6 @@
 //! Two kinds of noise: each bounce scatters, and each time is uncertain.
 
-use super::banded::{Banded, Factors};
+use super::banded::{Banded, Factors, ln_determinants};
 use super::bounces::Bounces;
 
 /// The covariance of ln e from bounce to bounce, before the noises' sizes are known.
@@ -75,14 +75,19 @@ impl Noise {
     /// `L = ln|Σ|` and `u = ln σ_e²` it is `L′ − L″`, taken by differences.
     pub(super) fn information(&self, sizes: Sizes) -> Option<f64> {
         const STEP: f64 = 0.2;
-        let ln = |step: f64| {
-            let bounce = sizes.bounce * (0.5 * step).exp();
-            Some(self.factors(Sizes { bounce, ..sizes })?.ln_determinant())
-        };
-        let (less, same, more) = (ln(-STEP)?, ln(0.0)?, ln(STEP)?);
+        let scale = sizes.timing.powi(2);
+        let own = [-STEP, 0.0, STEP].map(|step: f64| sizes.bounce.powi(2) * step.exp());
+        let rows = self.timing.rows.iter().zip(&self.wildness);
+        let [less, same, more] = ln_determinants(rows.map(|([main, first, second], w)| {
+            let main = own.map(|own| scale * main + own * w);
+            (main, [scale * first, scale * second])
+        }));
         let first = (more - less) / (2.0 * STEP);
         let second = (more - 2.0 * same + less) / (STEP * STEP);
-        Some((first - second).max(f64::MIN_POSITIVE))
+        let information = first - second;
+        information
+            .is_finite()
+            .then_some(information.max(f64::MIN_POSITIVE))
     }
 
     /// `aᵀ·A·diag(s²)·Aᵀ·a` and `aᵀ·diag(w)·a`: what the noises of unit size make of a weighted sum of ln e.
