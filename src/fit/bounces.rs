@@ -1,9 +1,7 @@
 //! What each bounce says of ln e, made linear in the times and in the parameters of the model.
 
 use super::flights::Impact;
-use super::weight::Weight;
-use crate::physics::ends::Ends;
-use crate::units::real;
+use super::slowing::{self, Flight, Lost, Slowing};
 
 /// What is known beforehand of a parameter: a normal distribution.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,7 +61,7 @@ pub(super) struct Bounces {
     pub ln_stretch: Vec<f64>,
     /// … and how that depends on each fitted parameter.
     pub stretching: Vec<[f64; MOST]>,
-    /// Mean of `ln(e/e₀)` by the weight; θ plus nothing but the mean of ln e, whatever the speeds.
+    /// Mean of `ln(e/e₀)` by the weight: θ is the mean of ln e, and e₀ that of fast impacts.
     pub mean_loss: f64,
     /// Mean ln of the speed of arrival, as a flight without air of so many seconds has it: `ln(2v/g)`.
     pub mean_ln_speed: f64,
@@ -77,17 +75,13 @@ impl Bounces {
         terms: &Terms,
         values: Values,
     ) -> Option<Self> {
-        let weight = Slowing::of(trial_s, terms, values)?;
-        let flights = flights(trial_s, values, &weight)?;
+        let slowing = Slowing::of(trial_s, terms, values)?;
+        let flights = slowing::flights(trial_s, values, &slowing)?;
         let arriving = &flights[..flights.len() - 1];
         let speeds: Vec<f64> = arriving.iter().map(|f| f.ends.ln_landing).collect();
-        let mean_ln_speed = mean(speeds.iter().copied());
-        let lost: Vec<Lost> = speeds
-            .iter()
-            .map(|ln_speed| weight.loss(values.contact_s, ln_speed.exp()))
-            .collect();
-        let mean_loss = mean(lost.iter().map(|l| l.ln));
-        let mean_loss_by_contact = mean(lost.iter().map(|l| l.by_contact));
+        let mean_ln_speed = slowing::mean(speeds.iter().copied());
+        let (lost, mean_loss) = slowing.losses(values, &speeds);
+        let ln_restitution = values.ln_fast_restitution + mean_loss;
         let off_s: Vec<f64> = observed
             .iter()
             .zip(trial_s)
@@ -107,14 +101,14 @@ impl Bounces {
             .map(|((((before, after), lost), slopes), off)| {
                 let moved: f64 = slopes.iter().zip(off).map(|(s, o)| s * o).sum();
                 let observed = after.ends.ln_leaving - before.ends.ln_landing + moved;
-                observed - (lost.ln - mean_loss)
+                // Linear around the trial's θ: what of the loss follows from it is not observed.
+                observed - lost.ln + lost.by_restitution * ln_restitution
             })
             .collect();
         let (design, stretching) = pairs()
             .zip(&speeds)
             .map(|(((before, after), lost), speed)| {
-                let by_weight = lost.by_contact - mean_loss_by_contact;
-                terms.dependence(before, after, by_weight, mean_ln_speed - speed)
+                terms.dependence(before, after, lost, mean_ln_speed - speed)
             })
             .unzip();
         Some(Self {
@@ -130,79 +124,6 @@ impl Bounces {
     }
 }
 
-/// A flight.
-struct Flight {
-    ends: Ends,
-    /// By how much it is shorter where C is longer: 1 but for a linear ball.
-    shorter: f64,
-}
-
-/// What the weight takes from ln e of one bounce, and how that depends on C and on ln of the flight before.
-#[derive(Debug, Clone, Copy, Default)]
-struct Lost {
-    ln: f64,
-    by_contact: f64,
-    by_ln_flight: f64,
-}
-
-/// How slow impacts differ from fast ones: not at all, or by the weight of a linear ball.
-struct Slowing {
-    weight: Option<Weight>,
-    restitution: f64,
-}
-
-impl Slowing {
-    /// None if such a ball would not leave.
-    fn of(trial_s: &[f64], terms: &Terms, values: Values) -> Option<Self> {
-        let flights = trial_s.windows(2).map(|w| w[1] - w[0] - values.contact_s);
-        let shortest = flights.fold(f64::INFINITY, f64::min);
-        let of_ball = || Weight::of(values.ln_fast_restitution, values.contact_s / shortest);
-        Some(Self {
-            weight: if terms.weight { Some(of_ball()?) } else { None },
-            restitution: values.ln_fast_restitution.exp(),
-        })
-    }
-
-    fn loss(&self, contact_s: f64, flight_s: f64) -> Lost {
-        let Some(weight) = &self.weight else {
-            return Lost::default();
-        };
-        let s = contact_s / flight_s;
-        let (ln, slope) = weight.at(s).loss;
-        Lost {
-            ln,
-            by_contact: slope / flight_s,
-            by_ln_flight: -s * slope,
-        }
-    }
-
-    /// The contact before a flight of about this length, and its derivative by C.
-    fn contact(&self, contact_s: f64, flight_s: f64) -> (f64, f64) {
-        let Some(weight) = &self.weight else {
-            return (contact_s, 1.0);
-        };
-        // The flight before was longer by 1/e.
-        let s = contact_s * self.restitution / flight_s;
-        let (longer, slope) = weight.at(s).longer;
-        (contact_s * longer, longer + s * slope)
-    }
-}
-
-fn flights(trial_s: &[f64], values: Values, slowing: &Slowing) -> Option<Vec<Flight>> {
-    let flight = |w: &[f64]| {
-        let interval = w[1] - w[0];
-        let (contact_s, shorter) = slowing.contact(values.contact_s, interval - values.contact_s);
-        let ends = Ends::of(interval - contact_s, values.drag_per_s2)?;
-        Some(Flight { ends, shorter })
-    };
-    trial_s.windows(2).map(flight).collect()
-}
-
-fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
-    let count = real(values.len().max(1));
-    values.sum::<f64>() / count
-}
-
 impl Terms {
     /// How many parameters are fitted beside θ.
     fn count(&self) -> usize {
@@ -215,14 +136,15 @@ impl Terms {
         &self,
         before: &Flight,
         after: &Flight,
-        by_weight: f64,
+        lost: &Lost,
         slower: f64,
     ) -> ([f64; MOST], [f64; MOST]) {
         let (shorter_before, shorter_after) = (before.shorter, after.shorter);
         let (before, after) = (&before.ends, &after.ends);
         // A longer contact means shorter flights: D stays, T = D − C.
         let contact = (
-            after.leaving_slope * shorter_after - before.landing_slope * shorter_before + by_weight,
+            after.leaving_slope * shorter_after - before.landing_slope * shorter_before
+                + lost.by_contact,
             after.leaving_slope * shorter_after,
         );
         // τ·d(ln a)/dτ = 1 + K·T²/8 + …, and ln u(T) = ln T + K·T²/16 + …
@@ -231,7 +153,7 @@ impl Terms {
             2.0 * after.leaving_by_drag,
         );
         let fitted = [
-            Some((1.0, 0.0)),
+            Some((1.0 + lost.by_restitution, 0.0)),
             self.contact.map(|_| contact),
             self.drag.map(|_| drag),
             self.speed.map(|_| (slower, 0.0)),

@@ -1,6 +1,6 @@
 //! Generalised least squares with what is known of the parameters beforehand, given the sizes of the noises.
 
-use statrs::distribution::{ContinuousCDF, Normal};
+use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
 use super::bounces::{Bounces, MOST};
 use super::noise::{Noise, Sizes};
@@ -55,6 +55,47 @@ pub(super) struct Solution {
     pub values: [f64; MOST],
     /// Their covariance.
     pub covariance: [[f64; MOST]; MOST],
+    /// Mean and variance of the normal distribution of each, of which what is less than it can be is to be cut off.
+    pub before_least: [(f64, f64); MOST],
+}
+
+impl Solution {
+    /// Mean and covariance given that no parameter is less than it can be: one after the other by the moments of a
+    /// normal distribution that is cut off.
+    ///
+    /// # Formula
+    /// ```text
+    /// λ = φ(α)/(1 − Φ(α)),  α = (least − m)/σ:   m_j + λ·V_ij/σ,   V_jk − λ(λ − α)·V_ij·V_ik/σ²
+    /// ```
+    pub(super) fn keep_above_least(&mut self, priors: &[Prior]) {
+        for (i, prior) in priors.iter().enumerate() {
+            let variance = self.covariance[i][i];
+            self.before_least[i] = (self.values[i], variance);
+            if prior.least == f64::NEG_INFINITY || variance <= 0.0 {
+                continue;
+            }
+            let std = variance.sqrt();
+            let alpha = (prior.least - self.values[i]) / std;
+            let left = Normal::standard().sf(alpha);
+            let lambda = if left > f64::MIN_POSITIVE {
+                Normal::standard().pdf(alpha) / left
+            } else {
+                alpha
+            };
+            let (column, shrink) = (self.covariance[i], lambda * (lambda - alpha) / variance);
+            for j in 0..MOST {
+                self.values[j] += lambda * column[j] / std;
+                for k in 0..MOST {
+                    self.covariance[j][k] -= shrink * column[j] * column[k];
+                }
+            }
+        }
+        for i in 0..priors.len() {
+            if priors[i].least == f64::NEG_INFINITY {
+                self.before_least[i] = (self.values[i], self.covariance[i][i]);
+            }
+        }
+    }
 }
 
 /// Solves for the parameters.
@@ -134,6 +175,7 @@ fn solve_columns<const N: usize>(
             + allowed,
         values,
         covariance,
+        before_least: [(0.0, 0.0); MOST],
     })
 }
 

@@ -11,6 +11,7 @@ mod least_squares;
 pub mod model;
 mod noise;
 mod posterior;
+mod slowing;
 pub mod stray;
 pub mod total_time;
 mod weight;

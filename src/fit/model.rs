@@ -352,7 +352,8 @@ impl<'a> State<'a> {
         Some(
             largest
                 .max((self.values.contact_s - before.contact_s).abs() / shortest)
-                .max((self.values.drag_per_s2 - before.drag_per_s2).abs()),
+                .max((self.values.drag_per_s2 - before.drag_per_s2).abs())
+                .max((self.values.ln_fast_restitution - before.ln_fast_restitution).abs()),
         )
     }
 }

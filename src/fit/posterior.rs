@@ -29,6 +29,8 @@ const HERMITE: [(f64, f64); 3] = [
 #[derive(Debug)]
 pub(super) struct Posterior {
     parts: Vec<(f64, Sizes, Solution)>,
+    /// What each parameter cannot be less than.
+    least: Vec<f64>,
     /// ln of the evidence for the model.
     pub ln_evidence: f64,
 }
@@ -67,9 +69,13 @@ impl Posterior {
             *weight = (*weight - best).exp();
             total += *weight;
         }
-        parts.iter_mut().for_each(|p| p.0 /= total);
+        for (weight, _, solution) in &mut parts {
+            *weight /= total;
+            solution.keep_above_least(priors);
+        }
         (total > 0.0).then(|| Self {
             parts,
+            least: priors.iter().map(|p| p.least).collect(),
             ln_evidence: best + (total * range.step).ln(),
         })
     }
@@ -97,9 +103,13 @@ impl Posterior {
     /// The value below which a parameter lies with this probability.
     pub(super) fn quantile(&self, parameter: usize, probability: f64) -> f64 {
         let normal = Normal::standard();
+        let least = self.least[parameter];
         let below = |x: f64| {
             self.mean_of(|_, s| {
-                normal.cdf((x - s.values[parameter]) / s.covariance[parameter][parameter].sqrt())
+                let (mean, variance) = s.before_least[parameter];
+                let cdf = |x: f64| normal.cdf((x - mean) / variance.sqrt());
+                let cut = if least > f64::NEG_INFINITY { cdf(least) } else { 0.0 };
+                ((cdf(x) - cut) / (1.0 - cut).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
             })
         };
         let (mean, std) = self.moments(parameter);

@@ -1,0 +1,112 @@
+//! How slow impacts differ from fast ones: not at all, or by the weight of a linear ball.
+
+use super::bounces::{Terms, Values};
+use super::weight::Weight;
+use crate::physics::ends::Ends;
+use crate::units::real;
+
+/// A flight.
+pub(super) struct Flight {
+    pub ends: Ends,
+    /// By how much it is shorter where C is longer: 1 but for a linear ball.
+    pub shorter: f64,
+}
+
+/// What the weight takes from ln e of one bounce, less the mean of all: θ is the mean of ln e.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Lost {
+    pub ln: f64,
+    /// How that depends on θ, on C, and on ln of the flight before.
+    pub by_restitution: f64,
+    pub by_contact: f64,
+    pub by_ln_flight: f64,
+}
+
+/// The law of slow impacts.
+pub(super) struct Slowing {
+    weight: Option<Weight>,
+    ln_restitution: f64,
+}
+
+impl Slowing {
+    /// None if a ball with these values would not leave.
+    pub(super) fn of(trial_s: &[f64], terms: &Terms, values: Values) -> Option<Self> {
+        let flights = trial_s.windows(2).map(|w| w[1] - w[0] - values.contact_s);
+        let shortest = flights.fold(f64::INFINITY, f64::min);
+        let of_ball = || Weight::of(values.ln_fast_restitution, values.contact_s / shortest);
+        Some(Self {
+            weight: if terms.weight { Some(of_ball()?) } else { None },
+            ln_restitution: values.ln_fast_restitution,
+        })
+    }
+
+    /// The losses at these ln speeds of arrival (as flights in seconds), and their mean.
+    ///
+    /// # Formula
+    /// With `δ(s, e₀) ≈ −s·h(e₀)`, `κ = d ln h/d ln e₀ ≈ 1/l − 2l/(π² + l²) − 1/(1 + e₀)`, l = ln e₀, and `θ = l + δ̄`:
+    /// `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
+    pub(super) fn losses(&self, values: Values, ln_speeds: &[f64]) -> (Vec<Lost>, f64) {
+        let Some(weight) = &self.weight else {
+            return (vec![Lost::default(); ln_speeds.len()], 0.0);
+        };
+        let mut lost: Vec<Lost> = ln_speeds
+            .iter()
+            .map(|ln_speed| {
+                let flight_s = ln_speed.exp();
+                let s = values.contact_s / flight_s;
+                let (ln, slope) = weight.at(s).loss;
+                Lost {
+                    ln,
+                    by_restitution: 0.0,
+                    by_contact: slope / flight_s,
+                    by_ln_flight: -s * slope,
+                }
+            })
+            .collect();
+        let mean_ln = mean(lost.iter().map(|l| l.ln));
+        let mean_by_contact = mean(lost.iter().map(|l| l.by_contact));
+        let l = self.ln_restitution;
+        let kappa = 1.0 / l
+            - 2.0 * l / (std::f64::consts::PI.powi(2) + l * l)
+            - 1.0 / (1.0 + l.exp());
+        let by_fast = kappa / (1.0 + kappa * mean_ln).max(LEAST_SLOPE);
+        for lost in &mut lost {
+            lost.ln -= mean_ln;
+            lost.by_restitution = by_fast * lost.ln;
+            lost.by_contact -= mean_by_contact + lost.by_restitution * mean_by_contact;
+        }
+        (lost, mean_ln)
+    }
+
+    /// The contact after a flight of this length, and its derivative by C.
+    fn contact(&self, contact_s: f64, flight_s: f64) -> (f64, f64) {
+        let Some(weight) = &self.weight else {
+            return (contact_s, 1.0);
+        };
+        let s = contact_s / flight_s;
+        let (longer, slope) = weight.at(s).longer;
+        (contact_s * longer, longer + s * slope)
+    }
+}
+
+/// θ follows e₀ by this much at least.
+const LEAST_SLOPE: f64 = 0.2;
+
+/// The flights between trial times. None if one is not longer than the contact before it.
+pub(super) fn flights(trial_s: &[f64], values: Values, slowing: &Slowing) -> Option<Vec<Flight>> {
+    // The flight before the first interval was longer by 1/e.
+    let first_s = trial_s[1] - trial_s[0] - values.contact_s;
+    let mut before_s = first_s / slowing.ln_restitution.exp();
+    let flight = |w: &[f64]| {
+        let (contact_s, shorter) = slowing.contact(values.contact_s, before_s);
+        let ends = Ends::of(w[1] - w[0] - contact_s, values.drag_per_s2)?;
+        before_s = ends.ln_landing.exp();
+        Some(Flight { ends, shorter })
+    };
+    trial_s.windows(2).map(flight).collect()
+}
+
+pub(super) fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = real(values.len().max(1));
+    values.sum::<f64>() / count
+}
