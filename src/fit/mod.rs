@@ -72,6 +72,8 @@ pub fn student_975(degrees_of_freedom: f64) -> f64 {
 
 #[cfg(test)]
 mod drop_tests;
+#[cfg(test)]
+mod oracle_tests;
 
 #[cfg(test)]
 mod tests {
