@@ -90,10 +90,13 @@ impl Solution {
                 }
             }
         }
-        for i in 0..priors.len() {
-            if priors[i].least == f64::NEG_INFINITY {
-                self.before_least[i] = (self.values[i], self.covariance[i][i]);
-            }
+        // θ and p are as the cuts of the others leave them.
+        for (i, _) in priors
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| p.least == f64::NEG_INFINITY)
+        {
+            self.before_least[i] = (self.values[i], self.covariance[i][i]);
         }
     }
 }
@@ -109,8 +112,9 @@ impl Solution {
 ///
 /// What was observed are times and not ln e. Where the bounces' own noise rules, the density of the times is that of ln e
 /// times the derivative of ln e by the flight after the bounce, `1/(D − C)`, which depends on the parameters:
-/// `Σ ρ_j·ln ∂z_j/∂D_j` is added to ln L and its slope to the right side of the equations, `ρ_j` being the bounces' share of
-/// the variance. Without it C comes out too small, as long flights would explain themselves.
+/// `Σ ln ∂z_j/∂D_j` is added to ln L, and `ρ_j` times its slope to the right side of the equations, `ρ_j` being the bounces'
+/// share of the variance: where the times' noise rules, its determinant changes with C and cancels the slope. Without it C
+/// comes out too small, as long flights would explain themselves.
 pub(super) fn solve(
     bounces: &Bounces,
     noise: &Noise,
@@ -195,7 +199,7 @@ fn products<const N: usize>(
     products
 }
 
-/// `Σ ρ_j·ln ∂z_j/∂D_j` at the trial, and its slope by each parameter.
+/// `Σ ln ∂z_j/∂D_j` at the trial, and its slope by each parameter times `ρ_j`.
 struct Density {
     ln: f64,
     pull: [f64; MOST],

@@ -12,8 +12,9 @@ const BOUNCE: (f64, f64) = (1e-6, 0.3);
 /// Steps over that range in which the likelihood is searched for: a factor of four each, twice narrowed.
 const COARSE: usize = 10;
 const NARROWINGS: usize = 2;
-/// Steps over the part that matters.
-const FINE: usize = 13;
+/// Steps over the part that matters: no longer than this in ln σ_e, and at least so many.
+const FINE_STEP: f64 = 0.5;
+const FEWEST_STEPS: usize = 9;
 /// What lies this many nats below the best is left out.
 const NEGLIGIBLE: f64 = 12.0;
 /// Standard deviation of ln φ: the stated errors of the times are taken to be right within a quarter.
@@ -24,6 +25,8 @@ const HERMITE: [(f64, f64); 3] = [
     (0.0, 2.0 / 3.0),
     (1.732_050_807_568_877_2, 1.0 / 6.0),
 ];
+/// ln φ at which its likelihood is looked at beforehand, either side of 0.
+const LOOK: f64 = 0.15;
 
 /// Mixture of the solutions at all sizes of the noises, each by its share of the evidence.
 #[derive(Debug)]
@@ -40,11 +43,11 @@ impl Posterior {
     ///
     /// # Formula
     /// ```text
-    /// p(θ) ∝ ∬ L(σ_e, φ)·N(θ; θ̂, V)·p(σ_e)·p(φ) dσ_e dφ,   p(σ_e) ∝ σ_e/(σ_e² + τ²)
+    /// p(θ) ∝ ∬ L(σ_e, φ)·N(θ; θ̂, V)·p(σ_e)·p(φ) dσ_e dφ,   p(ln σ_e) ∝ √(Σ (σ_e²/(σ_e² + λᵢ))²)
     /// ```
-    /// τ is the scatter of ln e that the times alone make in the best timed bounces: well above it `σ_e` is a scale and its
-    /// prior that of a scale. Well below it nothing can be told of `σ_e`; that the data do not show it is no reason to
-    /// believe that it is nothing, so small values count less, as in Jeffreys' prior for a variance beside a known one.
+    /// Jeffreys' prior: where the bounces' own noise is seen, `σ_e` is a scale; where the times hide it, that the data do
+    /// not show it is no reason to believe that it is nothing, so small values count less ([`Noise::information`]).
+    /// Over ln σ_e by the trapezoidal rule, over ln φ by Gauss and Hermite's, laid where the posterior of φ is.
     pub(super) fn over_noise(bounces: &Bounces, noise: &Noise, priors: &[Prior]) -> Option<Self> {
         let at = |ln_bounce: f64, timing: f64| {
             let sizes = Sizes {
@@ -55,12 +58,19 @@ impl Posterior {
             let prior = 0.5 * noise.information(sizes)?.ln();
             Some((solution.ln_likelihood + prior, sizes, solution))
         };
-        let (range, _) = range(|ln_bounce| Some((at(ln_bounce, 1.0)?.0, ())))?;
-        let mut parts: Vec<(f64, Sizes, Solution)> = Vec::with_capacity(FINE * HERMITE.len());
-        for k in 0..FINE {
+        let (range, top) = range(|ln_bounce| Some((at(ln_bounce, 1.0)?.0, ())))?;
+        let (centre, width) = timing_scale(|ln_timing| Some(at(top, ln_timing.exp())?.0))?;
+        let mut parts: Vec<(f64, Sizes, Solution)> =
+            Vec::with_capacity(range.count * HERMITE.len());
+        for k in 0..range.count {
+            let end = k == 0 || k + 1 == range.count;
             for (node, weight) in HERMITE {
-                let part = at(range.at(k), (TIMING_DOUBT * node).exp());
-                parts.extend(part.map(|(ln, sizes, s)| (ln + weight.ln(), sizes, s)));
+                let ln_timing = centre + width * node;
+                // The prior over the normal distribution that the rule is for.
+                let prior = 0.5 * (node * node - (ln_timing / TIMING_DOUBT).powi(2));
+                let share = weight * width / TIMING_DOUBT * if end { 0.5 } else { 1.0 };
+                let part = at(range.at(k), ln_timing.exp());
+                parts.extend(part.map(|(ln, sizes, s)| (ln + prior + share.ln(), sizes, s)));
             }
         }
         let best = parts.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
@@ -108,7 +118,11 @@ impl Posterior {
             self.mean_of(|_, s| {
                 let (mean, variance) = s.before_least[parameter];
                 let cdf = |x: f64| normal.cdf((x - mean) / variance.sqrt());
-                let cut = if least > f64::NEG_INFINITY { cdf(least) } else { 0.0 };
+                let cut = if least > f64::NEG_INFINITY {
+                    cdf(least)
+                } else {
+                    0.0
+                };
                 ((cdf(x) - cut) / (1.0 - cut).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
             })
         };
@@ -160,7 +174,19 @@ fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)>
         from = (hill.lowest - grid.step).max(first);
         to = (hill.highest + grid.step).min(last);
     }
-    Some((Grid::new(from, to, FINE), top))
+    let count = crate::units::samples_in(((to - from) / FINE_STEP).ceil(), 1.0) + 1;
+    Some((Grid::new(from, to, count.max(FEWEST_STEPS)), top))
+}
+
+/// Centre and width of the posterior of ln φ, by a parabola through three of its values.
+fn timing_scale(ln_likelihood: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
+    let ln = |x: f64| Some(ln_likelihood(x)? - 0.5 * (x / TIMING_DOUBT).powi(2));
+    let (less, same, more) = (ln(-LOOK)?, ln(0.0)?, ln(LOOK)?);
+    let curvature = (2.0 * same - less - more) / (LOOK * LOOK);
+    // The prior alone bends by its own width; the likelihood can bend the other way.
+    let width = curvature.max(TIMING_DOUBT.powi(-2)).sqrt().recip();
+    let centre = width * width * (more - less) / (2.0 * LOOK);
+    Some((centre.clamp(-2.0 * TIMING_DOUBT, 2.0 * TIMING_DOUBT), width))
 }
 
 /// Where in the range of `ln σ_e` most balls are: at half a per cent.

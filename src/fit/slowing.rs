@@ -66,9 +66,8 @@ impl Slowing {
         let mean_ln = mean(lost.iter().map(|l| l.ln));
         let mean_by_contact = mean(lost.iter().map(|l| l.by_contact));
         let l = self.ln_restitution;
-        let kappa = 1.0 / l
-            - 2.0 * l / (std::f64::consts::PI.powi(2) + l * l)
-            - 1.0 / (1.0 + l.exp());
+        let kappa =
+            1.0 / l - 2.0 * l / (std::f64::consts::PI.powi(2) + l * l) - 1.0 / (1.0 + l.exp());
         let by_fast = kappa / (1.0 + kappa * mean_ln).max(LEAST_SLOPE);
         for lost in &mut lost {
             lost.ln -= mean_ln;
