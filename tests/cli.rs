@@ -83,12 +83,29 @@ fn json_has_the_fields_of_the_contract() {
     ] {
         assert!(drop.get(field).is_some(), "{field} is missing");
     }
-    for field in ["time_s", "time_std_s", "level_db", "interval_s", "status"] {
-        assert!(
-            drop["impacts"][0].get(field).is_some(),
-            "{field} is missing"
-        );
+    for field in [
+        "time_s",
+        "time_std_s",
+        "level_db",
+        "interval_s",
+        "status",
+        "rebound_height_m",
+        "rebound_height_std_m",
+        "rebound_speed_m_per_s",
+        "rebound_speed_std_m_per_s",
+        "impact_speed_m_per_s",
+        "impact_speed_std_m_per_s",
+        "restitution",
+        "restitution_std",
+        "energy_kept",
+        "energy_kept_std",
+    ] {
+        let of = |impact: usize| drop["impacts"][impact].get(field);
+        assert!(of(0).is_some(), "{field} is missing");
+        // The first has no flight before it; the second has all.
+        assert!(of(1).is_some_and(|v| !v.is_null()), "{field} is null");
     }
+    assert!(drop["impacts"][0]["restitution"].is_null());
     for field in ["flight_ratio", "eq25", "eq30", "first_rebound"] {
         let e = drop["estimates"][field]["value"]
             .as_f64()

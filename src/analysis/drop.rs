@@ -1,5 +1,6 @@
 //! One drop: its impacts timed and measured, its restitution fitted.
 
+use super::bounce::{Corrections, bounce, rebound_height_std_m};
 use super::{Settings, Stretch, model, rejected, warnings};
 use crate::Error;
 use crate::detect::refine::refine;
@@ -66,6 +67,8 @@ pub(super) fn measure(
     }
     let modelled = model::fitted(&timed, settings)?;
     warnings.extend(modelled.warnings);
+    let corrections = modelled.corrections;
+    let gravity = settings.gravity_m_per_s2;
     let drop = Drop {
         channel: channel + 1,
         bounces: chain.heard(),
@@ -84,7 +87,7 @@ pub(super) fn measure(
         evidence_nats: chain.evidence,
         rejected: chain.rejected.iter().map(rejected).collect(),
         warnings,
-        impacts: impacts(stretch, chain, &timed, &flights, settings.gravity_m_per_s2),
+        impacts: impacts(stretch, chain, &timed, &flights, corrections, gravity),
     };
     Ok(Measured {
         drop,
@@ -151,6 +154,7 @@ fn impacts(
     chain: &Chain,
     timed: &[Timed],
     flights: &Flights,
+    corrections: Corrections,
     gravity: f64,
 ) -> Vec<Impact> {
     let status = |link: &Link| match (link.event, link.doubtful) {
@@ -177,6 +181,8 @@ fn impacts(
                 interval_s: flight,
                 ratio: flight.zip(before).map(|(now, before)| now / before),
                 rebound_height_m: flight.map(|t| gravity * t * t / 8.0),
+                rebound_height_std_m: rebound_height_std_m(timed, flights, i, gravity),
+                bounce: bounce(timed, flights, i, corrections, gravity),
                 status: status(link),
             }
         })

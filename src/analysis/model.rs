@@ -3,6 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::Settings;
+use super::bounce::Corrections;
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::bounces::Known;
@@ -58,6 +59,7 @@ pub(super) struct Modelled {
     pub model: Model,
     pub ball: Option<Ball>,
     pub budget: Option<Budget>,
+    pub corrections: Corrections,
     pub warnings: Vec<Warning>,
 }
 
@@ -71,6 +73,7 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
             model: Model::none(),
             ball: None,
             budget: None,
+            corrections: Corrections::default(),
             warnings: Vec::new(),
         });
     };
@@ -90,6 +93,10 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
         bounce_std: told.then_some(fit.bounce_std),
         ball: ball(&climb, &inputs, settings),
         budget: told.then_some(fit.budget),
+        corrections: Corrections {
+            contact_s: fit.contact_s.map_or(0.0, |p| p.value),
+            drag_per_s2: fit.drag_per_s2.map_or(0.0, |p| p.value),
+        },
         warnings: warnings(&climb),
         model: model(&climb),
     })

@@ -5,7 +5,9 @@ use super::rows::{Evaluation, Row, Tier};
 use super::scores::{FileScore, score};
 use super::thresholds::Thresholds;
 use crate::fit::Estimate;
-use crate::report::{Analysis, Drop, Estimates, Impact, Model, Restitution, Scatter, Status};
+use crate::report::{
+    Analysis, Bounce, Drop, Estimates, Impact, Model, Restitution, Scatter, Status,
+};
 
 const E: f64 = 0.9;
 const LIMIT_S: f64 = 1e-6;
@@ -42,6 +44,8 @@ fn impact(time_s: f64) -> Impact {
         interval_s: None,
         ratio: None,
         rebound_height_m: None,
+        rebound_height_std_m: None,
+        bounce: Bounce::default(),
         status: Status::Heard,
     }
 }

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Ball, Drop, Impact, Rejected, Report, Warning};
+use super::{Ball, Drop, Impact, Rejected, Report, Warning, table};
 use crate::fit::Estimate;
 use crate::fit::model::Budget;
 
@@ -154,41 +154,15 @@ fn with_error(estimate: &Estimate) -> String {
     )
 }
 
-/// Decimals that show an error with two digits, at most eight.
+/// Decimals that show an error with two digits, one at least.
 fn digits_for(std: f64) -> usize {
-    (1..8)
-        .find(|&d| std * 10_f64.powi(d) >= 9.5)
-        .map_or(8, |d| usize::try_from(d).unwrap_or(8))
+    table::decimals(std).max(1)
 }
 
 fn table(out: &mut String, impacts: &[Impact]) {
-    line(
-        out,
-        "\n     #    time [s]  ± [µs]   level [dB]  flight [ms]   ratio  rebound [mm]",
-    );
-    for (i, impact) in impacts.iter().enumerate() {
-        let cell = |value: Option<f64>, width: usize, decimals: usize| {
-            value.map_or_else(
-                || format!("{:>width$}", "-"),
-                |v| format!("{v:width$.decimals$}"),
-            )
-        };
-        let row = format!(
-            "  {:4}  {:10.6}  {}  {}  {}  {}  {}  {}",
-            i + 1,
-            impact.time_s,
-            cell(impact.time_std_s.map(|s| 1e6 * s), 6, 1),
-            cell(impact.level_db, 11, 1),
-            cell(impact.interval_s.map(|t| 1e3 * t), 11, 3),
-            cell(impact.ratio, 6, 4),
-            cell(impact.rebound_height_m.map(|h| 1e3 * h), 12, 2),
-            if impact.status == super::Status::Heard {
-                ""
-            } else {
-                impact.status.word()
-            },
-        );
-        line(out, row.trim_end());
+    line(out, "");
+    for row in table::rows(impacts) {
+        line(out, &row);
     }
 }
 
