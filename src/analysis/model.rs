@@ -114,7 +114,7 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
         drag: fit.drag_per_s2,
         by_speed: fit.exponent.is_some(),
         warnings: warnings(&climb),
-        model: model(&climb),
+        model: model(&climb, &inputs),
     })
 }
 
@@ -127,7 +127,7 @@ fn exponential(ln: &Parameter) -> Estimate {
     }
 }
 
-fn model(climb: &Climb) -> Model {
+fn model(climb: &Climb, inputs: &Inputs) -> Model {
     let fit = &climb.fit;
     let mut parameters = Map::new();
     parameters.insert(
@@ -150,6 +150,13 @@ fn model(climb: &Climb) -> Model {
     add("speed_exponent", fit.exponent);
     Model {
         selected: climb.selected,
+        given: [
+            inputs.contact_s.map(|_| "contact_time"),
+            inputs.drag_per_s2.map(|_| "drag"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
         parameters,
         candidates: climb.candidates.clone(),
         alike: climb.alike,

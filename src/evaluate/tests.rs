@@ -78,6 +78,7 @@ fn drop_of(times_s: &[f64], e: f64, half_width: f64) -> Drop {
         },
         model: Model {
             selected: "constant",
+            given: Vec::new(),
             parameters: serde_json::Map::new(),
             candidates: Vec::new(),
             alike: None,

@@ -6,6 +6,7 @@ pub mod csv;
 pub mod json;
 mod table;
 pub mod text;
+mod wrap;
 
 use serde::Serialize;
 
@@ -227,8 +228,10 @@ pub struct Scatter {
 /// The model of the flights.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Model {
-    /// Its name.
+    /// Its name: what was fitted beside e.
     pub selected: &'static str,
+    /// What was given and is in the model too, though its name does not say so: `contact_time`, `drag`.
+    pub given: Vec<&'static str>,
     /// Its parameters.
     pub parameters: serde_json::Map<String, serde_json::Value>,
     /// The models that were compared.
@@ -243,6 +246,7 @@ impl Model {
     pub fn none() -> Self {
         Self {
             selected: "constant",
+            given: Vec::new(),
             parameters: serde_json::Map::new(),
             candidates: Vec::new(),
             alike: None,

@@ -24,7 +24,7 @@ fn row((index, impact): (usize, &Impact)) -> String {
         "{:4} {:10.6}  {:>6} {:>6} {:>8} {:>6}  {:>6} {:>6} {:>8} {status}",
         index + 1,
         impact.time_s,
-        fixed(impact.time_std_s.map(|s| 1e6 * s), 1),
+        two_digits(impact.time_std_s.map(|s| 1e6 * s)),
         fixed(impact.level_db, 1),
         fixed(impact.interval_s.map(|t| 1e3 * t), 3),
         fixed(impact.ratio, 4),
