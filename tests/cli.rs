@@ -60,6 +60,40 @@ fn text_answers_first() {
 }
 
 #[test]
+fn text_fits_a_terminal_and_ends_with_one_line_feed() {
+    let file = recording(&folder("width"), "pingpong");
+    let named = text(&run(&["analyze", &file, "--height", "30.5cm", "--mass", "2.7g"]).stdout);
+    assert!(
+        named.contains("\nWarning: ") && named.contains(" N·s/m"),
+        "{named}"
+    );
+    // The first line holds the path.
+    for line in named.lines().skip(1) {
+        assert!(line.chars().count() <= 80, "{line}");
+    }
+    assert_eq!(named.trim_end().len() + 1, named.len());
+    // Times of a clean recording are exact to hundredths of a microsecond, and say so.
+    assert!(
+        named.contains(" 0.01") && !named.contains("     0.0 "),
+        "{named}"
+    );
+}
+
+#[test]
+fn a_contact_time_that_is_given_is_said_to_be() {
+    let file = recording(&folder("given"), "steel");
+    let arguments = ["analyze", file.as_str(), "--contact-time", "0.08ms"];
+    let said = text(&run(&arguments).stdout);
+    assert!(
+        said.contains("constant e, with the contact time given"),
+        "{said}"
+    );
+    let model = &json(&arguments)["drops"][0]["model"];
+    assert_eq!(model["selected"], "constant");
+    assert_eq!(model["given"], serde_json::json!(["contact_time"]));
+}
+
+#[test]
 fn json_has_the_fields_of_the_contract() {
     let file = recording(&folder("json"), "steel");
     let document = json(&["analyze", &file, "--height", "15cm"]);
@@ -83,12 +117,29 @@ fn json_has_the_fields_of_the_contract() {
     ] {
         assert!(drop.get(field).is_some(), "{field} is missing");
     }
-    for field in ["time_s", "time_std_s", "level_db", "interval_s", "status"] {
-        assert!(
-            drop["impacts"][0].get(field).is_some(),
-            "{field} is missing"
-        );
+    for field in [
+        "time_s",
+        "time_std_s",
+        "level_db",
+        "interval_s",
+        "status",
+        "rebound_height_m",
+        "rebound_height_std_m",
+        "rebound_speed_m_per_s",
+        "rebound_speed_std_m_per_s",
+        "impact_speed_m_per_s",
+        "impact_speed_std_m_per_s",
+        "restitution",
+        "restitution_std",
+        "energy_kept",
+        "energy_kept_std",
+    ] {
+        let of = |impact: usize| drop["impacts"][impact].get(field);
+        assert!(of(0).is_some(), "{field} is missing");
+        // The first has no flight before it; the second has all.
+        assert!(of(1).is_some_and(|v| !v.is_null()), "{field} is null");
     }
+    assert!(drop["impacts"][0]["restitution"].is_null());
     for field in ["flight_ratio", "eq25", "eq30", "first_rebound"] {
         let e = drop["estimates"][field]["value"]
             .as_f64()

@@ -1,12 +1,14 @@
 //! One drop: its impacts timed and measured, its restitution fitted.
 
+use super::agreement::Agreement;
+use super::bounce::{Corrections, bounce, rebound_height_std_m};
 use super::{Settings, Stretch, model, rejected, warnings};
 use crate::Error;
 use crate::detect::refine::refine;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
-use crate::report::{Drop, Estimates, Impact, Scatter, Status};
+use crate::report::{Drop, Estimates, Impact, Scatter, Status, Warning};
 use crate::sequence::{Chain, Link};
 
 /// A drop, as far as it can be known before the recording ends.
@@ -14,6 +16,8 @@ use crate::sequence::{Chain, Link};
 pub(super) struct Measured {
     /// The drop.
     pub drop: Drop,
+    /// How well the ways to e agree.
+    agreement: Option<Agreement>,
     /// How long the ball would have gone on after its last impact, in seconds.
     left_s: Option<f64>,
 }
@@ -21,14 +25,16 @@ pub(super) struct Measured {
 impl Measured {
     /// The drop in a recording that was listened to up to `end_s`: if the ball would go on longer, there is no end.
     pub(super) fn until(self, end_s: f64) -> Drop {
-        let mut drop = self.drop;
+        let (mut drop, mut agreement) = (self.drop, self.agreement);
         if let Some(cut) = warnings::of_end(&drop, self.left_s, end_s) {
             drop.total_time_s = None;
             (drop.estimates.eq25, drop.estimates.eq30) = (None, None);
             // That the recording ends early says it all.
             drop.warnings.retain(|w| w.code != "ended_early");
             drop.warnings.push(cut);
+            agreement = agreement.map(Agreement::without_end);
         }
+        drop.warnings.extend(agreement.and_then(|a| a.warning()));
         drop
     }
 }
@@ -44,28 +50,20 @@ pub(super) fn measure(
     let flights = Flights::between(&timed);
     let ratio = flights.ratio();
     let mut warnings = warnings::of_chain(stretch, &timed, chain);
-    let (mut total, mut first_rebound) = (None, None);
-    if let (Some(ratio), Some(height_m)) = (ratio, settings.height_m) {
-        let input = total_time::Drop {
-            impacts: &timed,
-            flights: &flights,
-            restitution: ratio.value,
-            height_m,
-            height_std_m: settings.height_std_m,
-            gravity_m_per_s2: settings.gravity_m_per_s2,
-        };
-        let solved = total_time::solve(&input)?;
-        if !matches!(
-            solved,
-            Err(Missing::FirstImpact { .. } | Missing::Height { .. })
-        ) {
-            first_rebound = total_time::first_rebound(&input);
+    let (total, first_rebound) = match (ratio, settings.height_m) {
+        (Some(ratio), Some(height_m)) => {
+            let height = by_height(&timed, &flights, ratio.value, height_m, settings)?;
+            warnings.extend(height.warning);
+            (height.total, height.first_rebound)
         }
-        warnings.extend(warnings::of_total_time(&solved));
-        total = solved.ok();
-    }
+        _ => (None, None),
+    };
+    let estimates = estimates(ratio, total, first_rebound);
     let modelled = model::fitted(&timed, settings)?;
+    let agreement = Agreement::of(&timed, &flights, &estimates, &modelled, settings)?;
+    let corrections = modelled.corrections();
     warnings.extend(modelled.warnings);
+    let gravity = settings.gravity_m_per_s2;
     let drop = Drop {
         channel: channel + 1,
         bounces: chain.heard(),
@@ -73,7 +71,7 @@ pub(super) fn measure(
             - timed.first().map_or(0.0, |i| i.time_s),
         total_time_s: total.map(|t| t.total_time_s),
         restitution: modelled.restitution,
-        estimates: estimates(ratio, total, first_rebound),
+        estimates,
         scatter: Scatter {
             timing_std_s: median_std(&timed),
             bounce_std: modelled.bounce_std,
@@ -84,11 +82,52 @@ pub(super) fn measure(
         evidence_nats: chain.evidence,
         rejected: chain.rejected.iter().map(rejected).collect(),
         warnings,
-        impacts: impacts(stretch, chain, &timed, &flights, settings.gravity_m_per_s2),
+        impacts: impacts(stretch, chain, &timed, &flights, corrections, gravity),
     };
     Ok(Measured {
         drop,
+        agreement,
         left_s: ratio.map(|r| total_time::left_s(&timed, &flights, r.value)),
+    })
+}
+
+/// What a height adds.
+pub(super) struct ByHeight {
+    pub total: Option<TotalTime>,
+    pub first_rebound: Option<Estimate>,
+    /// Why there is no total time.
+    pub warning: Option<Warning>,
+}
+
+/// What follows from the height of release, for flights of this ratio.
+pub(super) fn by_height(
+    timed: &[Timed],
+    flights: &Flights,
+    ratio: f64,
+    height_m: f64,
+    settings: &Settings,
+) -> Result<ByHeight, Error> {
+    let input = total_time::Drop {
+        impacts: timed,
+        flights,
+        restitution: ratio,
+        height_m,
+        height_std_m: settings.height_std_m,
+        gravity_m_per_s2: settings.gravity_m_per_s2,
+    };
+    let solved = total_time::solve(&input)?;
+    let unfit = matches!(
+        solved,
+        Err(Missing::FirstImpact { .. } | Missing::Height { .. })
+    );
+    Ok(ByHeight {
+        first_rebound: if unfit {
+            None
+        } else {
+            total_time::first_rebound(&input)
+        },
+        warning: warnings::of_total_time(&solved),
+        total: solved.ok(),
     })
 }
 
@@ -127,7 +166,7 @@ fn times(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings) -> Vec<Timed
     timed.collect()
 }
 
-fn estimates(
+pub(super) fn estimates(
     ratio: Option<Estimate>,
     total: Option<TotalTime>,
     first_rebound: Option<Estimate>,
@@ -151,6 +190,7 @@ fn impacts(
     chain: &Chain,
     timed: &[Timed],
     flights: &Flights,
+    corrections: Corrections,
     gravity: f64,
 ) -> Vec<Impact> {
     let status = |link: &Link| match (link.event, link.doubtful) {
@@ -177,6 +217,8 @@ fn impacts(
                 interval_s: flight,
                 ratio: flight.zip(before).map(|(now, before)| now / before),
                 rebound_height_m: flight.map(|t| gravity * t * t / 8.0),
+                rebound_height_std_m: rebound_height_std_m(timed, flights, i, gravity),
+                bounce: bounce(timed, flights, i, corrections, gravity),
                 status: status(link),
             }
         })
@@ -196,6 +238,10 @@ fn level_db(stretch: &Stretch<'_>, time_s: f64) -> Option<f64> {
 #[cfg(test)]
 impl From<Drop> for Measured {
     fn from(drop: Drop) -> Self {
-        Self { drop, left_s: None }
+        Self {
+            drop,
+            agreement: None,
+            left_s: None,
+        }
     }
 }

@@ -8,7 +8,7 @@ use crate::report::{Analysis, Rejected};
 /// How many rejected events of a recording are named, the strongest; the rest is counted.
 const NAMED: usize = 50;
 /// Impacts that are kept, of the drops with the most evidence: an hour of one drop after another. With its document
-/// each takes some 0.4 KiB, so that these add 20 MiB to what a scene needs.
+/// each takes 1 KiB, so that these add 50 MiB to what a scene needs.
 const MOST_IMPACTS: usize = 50_000;
 
 /// What was found in the scenes so far.

@@ -2,6 +2,8 @@
 //!
 //! A [`Listener`] takes a recording of any length block by block; [`analyze`] gives it one that is in memory.
 
+mod agreement;
+mod bounce;
 mod drop;
 mod findings;
 mod listener;

@@ -3,6 +3,7 @@
 use serde_json::{Map, Value};
 
 use super::Settings;
+use super::bounce::Corrections;
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::bounces::Known;
@@ -23,24 +24,26 @@ const CONTACT_ERROR: f64 = 0.05;
 
 /// What is known of the ball, from the settings.
 pub(super) fn inputs(settings: &Settings) -> Result<Inputs, Error> {
-    let drag = match (settings.mass_kg, settings.diameter_m) {
-        (Some(mass_kg), Some(diameter_m)) => {
-            let sphere = Sphere {
-                mass_kg,
-                diameter_m,
-            };
-            let law = FlightLaw::in_air(settings.gravity_m_per_s2, sphere, Air::default())?;
-            let rate = law
-                .terminal_speed_m_per_s()
-                .map(|v| law.gravity_m_per_s2() / v);
-            rate.map(|r| known(r * r, DRAG_ERROR))
-        }
-        _ => None,
-    };
+    let drag = law(settings)?.and_then(|law| {
+        let rate = law.gravity_m_per_s2() / law.terminal_speed_m_per_s()?;
+        Some(known(rate * rate, DRAG_ERROR))
+    });
     Ok(Inputs {
         contact_s: settings.contact_time_s.map(|t| known(t, CONTACT_ERROR)),
         drag_per_s2: drag,
     })
+}
+
+/// The flight of a ball whose mass and diameter are known.
+pub(super) fn law(settings: &Settings) -> Result<Option<FlightLaw>, Error> {
+    let (Some(mass_kg), Some(diameter_m)) = (settings.mass_kg, settings.diameter_m) else {
+        return Ok(None);
+    };
+    let sphere = Sphere {
+        mass_kg,
+        diameter_m,
+    };
+    FlightLaw::in_air(settings.gravity_m_per_s2, sphere, Air::default()).map(Some)
 }
 
 const fn known(value: f64, relative: f64) -> Known {
@@ -58,7 +61,21 @@ pub(super) struct Modelled {
     pub model: Model,
     pub ball: Option<Ball>,
     pub budget: Option<Budget>,
+    pub contact: Option<Parameter>,
+    pub drag: Option<Parameter>,
+    /// Whether e depends on the speed.
+    pub by_speed: bool,
     pub warnings: Vec<Warning>,
+}
+
+impl Modelled {
+    /// What the model takes out of the intervals.
+    pub(super) fn corrections(&self) -> Corrections {
+        Corrections {
+            contact_s: self.contact.map_or(0.0, |p| p.value),
+            drag_per_s2: self.drag.map_or(0.0, |p| p.value),
+        }
+    }
 }
 
 /// Fits a drop.
@@ -71,6 +88,9 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
             model: Model::none(),
             ball: None,
             budget: None,
+            contact: None,
+            drag: None,
+            by_speed: false,
             warnings: Vec::new(),
         });
     };
@@ -90,8 +110,11 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
         bounce_std: told.then_some(fit.bounce_std),
         ball: ball(&climb, &inputs, settings),
         budget: told.then_some(fit.budget),
+        contact: fit.contact_s,
+        drag: fit.drag_per_s2,
+        by_speed: fit.exponent.is_some(),
         warnings: warnings(&climb),
-        model: model(&climb),
+        model: model(&climb, &inputs),
     })
 }
 
@@ -104,7 +127,7 @@ fn exponential(ln: &Parameter) -> Estimate {
     }
 }
 
-fn model(climb: &Climb) -> Model {
+fn model(climb: &Climb, inputs: &Inputs) -> Model {
     let fit = &climb.fit;
     let mut parameters = Map::new();
     parameters.insert(
@@ -127,6 +150,13 @@ fn model(climb: &Climb) -> Model {
     add("speed_exponent", fit.exponent);
     Model {
         selected: climb.selected,
+        given: [
+            inputs.contact_s.map(|_| "contact_time"),
+            inputs.drag_per_s2.map(|_| "drag"),
+        ]
+        .into_iter()
+        .flatten()
+        .collect(),
         parameters,
         candidates: climb.candidates.clone(),
         alike: climb.alike,

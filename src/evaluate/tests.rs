@@ -5,7 +5,9 @@ use super::rows::{Evaluation, Row, Tier};
 use super::scores::{FileScore, score};
 use super::thresholds::Thresholds;
 use crate::fit::Estimate;
-use crate::report::{Analysis, Drop, Estimates, Impact, Model, Restitution, Scatter, Status};
+use crate::report::{
+    Analysis, Bounce, Drop, Estimates, Impact, Model, Restitution, Scatter, Status,
+};
 
 const E: f64 = 0.9;
 const LIMIT_S: f64 = 1e-6;
@@ -42,6 +44,8 @@ fn impact(time_s: f64) -> Impact {
         interval_s: None,
         ratio: None,
         rebound_height_m: None,
+        rebound_height_std_m: None,
+        bounce: Bounce::default(),
         status: Status::Heard,
     }
 }
@@ -74,6 +78,7 @@ fn drop_of(times_s: &[f64], e: f64, half_width: f64) -> Drop {
         },
         model: Model {
             selected: "constant",
+            given: Vec::new(),
             parameters: serde_json::Map::new(),
             candidates: Vec::new(),
             alike: None,

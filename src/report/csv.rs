@@ -1,12 +1,13 @@
 //! The report as a table: one row per impact.
 
-use std::fmt::Write;
-
 use super::Report;
 
 /// The columns, in order.
-pub const HEADER: &str =
-    "file,drop,impact,time_s,time_std_s,level_db,interval_s,ratio,rebound_height_m,status";
+pub const HEADER: &str = "file,drop,impact,time_s,time_std_s,level_db,interval_s,ratio,\
+                          rebound_height_m,status,rebound_height_std_m,\
+                          impact_speed_m_per_s,impact_speed_std_m_per_s,\
+                          rebound_speed_m_per_s,rebound_speed_std_m_per_s,\
+                          restitution,restitution_std,energy_kept,energy_kept_std";
 
 /// One row per impact with its drop's number, under [`HEADER`]; values that do not exist are empty.
 #[must_use]
@@ -15,28 +16,39 @@ pub fn to_csv(report: &Report) -> String {
     let file = quoted(&report.file);
     for (d, drop) in report.analysis.drops.iter().enumerate() {
         for (i, impact) in drop.impacts.iter().enumerate() {
-            let mut row = format!("{file},{},{},{}", d + 1, i + 1, impact.time_s);
-            let numbers = [
-                impact.time_std_s,
-                impact.level_db,
-                impact.interval_s,
-                impact.ratio,
-                impact.rebound_height_m,
+            let bounce = &impact.bounce;
+            // Columns that came later stand behind the status, so that those before keep their places.
+            let row = [
+                file.clone(),
+                (d + 1).to_string(),
+                (i + 1).to_string(),
+                impact.time_s.to_string(),
+                cell(impact.time_std_s),
+                cell(impact.level_db),
+                cell(impact.interval_s),
+                cell(impact.ratio),
+                cell(impact.rebound_height_m),
+                impact.status.word().to_owned(),
+                cell(impact.rebound_height_std_m),
+                cell(bounce.impact_speed_m_per_s),
+                cell(bounce.impact_speed_std_m_per_s),
+                cell(bounce.rebound_speed_m_per_s),
+                cell(bounce.rebound_speed_std_m_per_s),
+                cell(bounce.restitution),
+                cell(bounce.restitution_std),
+                cell(bounce.energy_kept),
+                cell(bounce.energy_kept_std),
             ];
-            for number in numbers {
-                row.push(',');
-                if let Some(number) = number {
-                    // Writing to a string cannot fail.
-                    let _: std::fmt::Result = write!(row, "{number}");
-                }
-            }
-            table.push_str(&row);
-            table.push(',');
-            table.push_str(impact.status.word());
+            table.push_str(&row.join(","));
             table.push('\n');
         }
     }
     table
+}
+
+/// A number, or nothing.
+fn cell(number: Option<f64>) -> String {
+    number.map_or_else(String::new, |n| n.to_string())
 }
 
 /// A field as RFC 4180 wants it: in quotes where it holds a comma, a quote or a line break.

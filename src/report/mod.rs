@@ -4,7 +4,9 @@
 
 pub mod csv;
 pub mod json;
+mod table;
 pub mod text;
+mod wrap;
 
 use serde::Serialize;
 
@@ -154,10 +156,39 @@ pub struct Impact {
     pub interval_s: Option<f64>,
     /// That interval over the one before.
     pub ratio: Option<f64>,
-    /// Height of the rebound, g·T²/8, in metres.
+    /// Height of the rebound, g·T²/8 of the interval T, in metres.
     pub rebound_height_m: Option<f64>,
+    /// Its standard error by those of the times, in metres.
+    pub rebound_height_std_m: Option<f64>,
+    /// Speeds and e of this impact.
+    #[serde(flatten)]
+    pub bounce: Bounce,
     /// Whether it was heard.
     pub status: Status,
+}
+
+/// Speeds, e and the energy kept at one impact, with standard errors by those of the times.
+///
+/// Speeds are those at the ends of a flight of T less the contact time, under the drag of the selected model if it has
+/// them: without, g·T/2. Null where the flight before or after, which a number rests on, was not heard whole.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Bounce {
+    /// Speed of arrival.
+    pub impact_speed_m_per_s: Option<f64>,
+    /// Its standard error.
+    pub impact_speed_std_m_per_s: Option<f64>,
+    /// Speed of leaving.
+    pub rebound_speed_m_per_s: Option<f64>,
+    /// Its standard error.
+    pub rebound_speed_std_m_per_s: Option<f64>,
+    /// e of this impact: the second speed over the first.
+    pub restitution: Option<f64>,
+    /// Its standard error; neighbouring flights share a time.
+    pub restitution_std: Option<f64>,
+    /// Share of the energy of arrival that it leaves with, e².
+    pub energy_kept: Option<f64>,
+    /// Its standard error.
+    pub energy_kept_std: Option<f64>,
 }
 
 /// The coefficient of restitution of ball and surface.
@@ -197,8 +228,10 @@ pub struct Scatter {
 /// The model of the flights.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Model {
-    /// Its name.
+    /// Its name: what was fitted beside e.
     pub selected: &'static str,
+    /// What was given and is in the model too, though its name does not say so: `contact_time`, `drag`.
+    pub given: Vec<&'static str>,
     /// Its parameters.
     pub parameters: serde_json::Map<String, serde_json::Value>,
     /// The models that were compared.
@@ -213,6 +246,7 @@ impl Model {
     pub fn none() -> Self {
         Self {
             selected: "constant",
+            given: Vec::new(),
             parameters: serde_json::Map::new(),
             candidates: Vec::new(),
             alike: None,

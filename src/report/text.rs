@@ -1,8 +1,6 @@
 //! The report for a person: the answer first, then the impacts, then what to know.
 
-use std::fmt::Write;
-
-use super::{Ball, Drop, Impact, Rejected, Report, Warning};
+use super::{Ball, Drop, Impact, Model, Rejected, Report, Warning, table, wrap::wrapped};
 use crate::fit::Estimate;
 use crate::fit::model::Budget;
 
@@ -41,6 +39,11 @@ fn line(out: &mut String, text: &str) {
     out.push('\n');
 }
 
+/// A line of the answer: what it says begins in the twelfth column.
+fn entry(out: &mut String, text: &str) {
+    line(out, &wrapped(text, 11));
+}
+
 fn answer(out: &mut String, drop: &Drop) {
     line(out, "");
     match &drop.restitution {
@@ -48,25 +51,22 @@ fn answer(out: &mut String, drop: &Drop) {
         None => line(out, "  e        not determined"),
     }
     if let Some(model) = model(drop) {
-        line(out, &format!("  model    {model}"));
+        entry(out, &format!("  model    {model}"));
     }
     line(out, &format!("  bounces  {}", drop.bounces));
-    let observed = format!(
-        "{:.4} s from the first impact to the last",
-        drop.observed_time_s
-    );
+    let observed = format!("{:.4} s from first to last impact", drop.observed_time_s);
     match drop.total_time_s {
-        Some(total) => line(
+        Some(total) => entry(
             out,
             &format!("  T_total  {total:.4} s from release to rest ({observed})"),
         ),
         None => line(out, &format!("  time     {observed}")),
     }
     if let Some(ball) = &drop.ball {
-        line(out, &format!("  ball     {}", ball_line(ball)));
+        entry(out, &format!("  ball     {}", ball_line(ball)));
     }
     if let Some(budget) = &drop.budget {
-        line(out, &format!("  error    {}", causes(budget)));
+        entry(out, &format!("  error    {}", causes(budget)));
     }
     let estimates = &drop.estimates;
     let others = [
@@ -103,7 +103,24 @@ fn model(drop: &Drop) -> Option<String> {
     .into_iter()
     .flatten()
     .collect();
-    (!terms.is_empty()).then(|| format!("{}: {}", drop.model.selected, terms.join(", ")))
+    (!terms.is_empty()).then(|| format!("{}: {}", name(&drop.model), terms.join(", ")))
+}
+
+/// The name of a model, with what it has because it was given: `constant e, with the contact time given`.
+fn name(model: &Model) -> String {
+    let given: Vec<&str> = model
+        .given
+        .iter()
+        .map(|&term| match term {
+            "contact_time" => "contact time",
+            other => other,
+        })
+        .collect();
+    match (model.selected, given.is_empty()) {
+        (selected, true) => selected.to_owned(),
+        ("constant", false) => format!("constant e, with the {} given", given.join(" and ")),
+        (selected, false) => format!("{selected}, with the {} given", given.join(" and ")),
+    }
 }
 
 fn ball_line(ball: &Ball) -> String {
@@ -154,41 +171,15 @@ fn with_error(estimate: &Estimate) -> String {
     )
 }
 
-/// Decimals that show an error with two digits, at most eight.
+/// Decimals that show an error with two digits, one at least.
 fn digits_for(std: f64) -> usize {
-    (1..8)
-        .find(|&d| std * 10_f64.powi(d) >= 9.5)
-        .map_or(8, |d| usize::try_from(d).unwrap_or(8))
+    table::decimals(std).max(1)
 }
 
 fn table(out: &mut String, impacts: &[Impact]) {
-    line(
-        out,
-        "\n     #    time [s]  ± [µs]   level [dB]  flight [ms]   ratio  rebound [mm]",
-    );
-    for (i, impact) in impacts.iter().enumerate() {
-        let cell = |value: Option<f64>, width: usize, decimals: usize| {
-            value.map_or_else(
-                || format!("{:>width$}", "-"),
-                |v| format!("{v:width$.decimals$}"),
-            )
-        };
-        let row = format!(
-            "  {:4}  {:10.6}  {}  {}  {}  {}  {}  {}",
-            i + 1,
-            impact.time_s,
-            cell(impact.time_std_s.map(|s| 1e6 * s), 6, 1),
-            cell(impact.level_db, 11, 1),
-            cell(impact.interval_s.map(|t| 1e3 * t), 11, 3),
-            cell(impact.ratio, 6, 4),
-            cell(impact.rebound_height_m.map(|h| 1e3 * h), 12, 2),
-            if impact.status == super::Status::Heard {
-                ""
-            } else {
-                impact.status.word()
-            },
-        );
-        line(out, row.trim_end());
+    line(out, "");
+    for row in table::rows(impacts) {
+        line(out, &row);
     }
 }
 
@@ -209,15 +200,11 @@ fn rejects(out: &mut String, rejected: &[Rejected], place: &str) {
     }
     kinds.sort_by_key(|&(_, count, _)| std::cmp::Reverse(count));
     for (detail, count, first) in kinds.iter().take(SHOWN) {
-        // Writing to a string cannot fail.
-        let _: std::fmt::Result = match count {
-            1 => writeln!(out, "  {:.4} s: {detail}", first.time_s),
-            _ => writeln!(
-                out,
-                "  {count} times, first at {:.4} s: {detail}",
-                first.time_s
-            ),
+        let told = match count {
+            1 => format!("  {:.4} s: {detail}", first.time_s),
+            _ => format!("  {count} times, first at {:.4} s: {detail}", first.time_s),
         };
+        line(out, &wrapped(&told, 4));
     }
 }
 
@@ -226,13 +213,30 @@ fn warnings(out: &mut String, warnings: &[Warning]) {
         line(out, "");
     }
     for warning in warnings {
-        line(out, &format!("Warning: {}", warning.message));
+        line(out, &wrapped(&format!("Warning: {}", warning.message), 2));
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_model_says_what_it_has_because_it_was_given() {
+        let named = |selected, given: &[&'static str]| {
+            let given = given.to_vec();
+            name(&Model {
+                selected,
+                given,
+                ..Model::none()
+            })
+        };
+        assert_eq!(named("contact+drag", &[]), "contact+drag");
+        let contact = named("constant", &["contact_time"]);
+        assert_eq!(contact, "constant e, with the contact time given");
+        let both = named("speed", &["contact_time", "drag"]);
+        assert_eq!(both, "speed, with the contact time and drag given");
+    }
 
     #[test]
     fn values_are_written_to_the_digits_that_their_error_leaves() {

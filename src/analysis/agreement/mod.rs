@@ -1,0 +1,304 @@
+//! Whether the ways to e agree, and what usually causes it where they do not.
+
+use super::Settings;
+use super::model::Modelled;
+use crate::Error;
+use crate::fit::Estimate;
+use crate::fit::flights::{Flights, Impact as Timed};
+use crate::physics::FlightLaw;
+use crate::report::{Estimates, Warning};
+
+/// Two values disagree that differ by more than this many standard deviations of their difference: 1 in 100 by chance.
+/// The errors count as independent; the scatter that estimates share makes that cautious.
+const DISAGREE: f64 = 2.58;
+/// How much too high the first rebound may read for buoyancy and added mass that no one knows, for each unit of K (s²):
+/// half of the 1.5·β that g is less, and `β = 4·K·d/(3·C_d·g)` is 0.014·K for a ball of 45 mm.
+const BUOYANCY_PER_DRAG: f64 = 0.01;
+
+/// A drag that is fitted may stand for an e that falls with speed: what it changes in the first rebound errs by this
+/// share. A tennis ball, which the air hardly slows, has half of its drag from that.
+const DRAG_DOUBT: f64 = 1.0 / 3.0;
+
+/// A value with its standard error.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Value {
+    value: f64,
+    std: f64,
+}
+
+impl Value {
+    fn of(estimate: Estimate) -> Option<Self> {
+        Some(Self {
+            value: estimate.value,
+            std: estimate.std_error?,
+        })
+    }
+
+    fn is_below(self, other: Self) -> bool {
+        other.value - self.value > DISAGREE * self.std.hypot(other.std)
+    }
+}
+
+/// What is known of the drag of the air.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Drag {
+    /// The model has none.
+    Unknown,
+    /// The model has it, or an e that falls with speed, which does the same to the flights.
+    Fitted,
+    /// By mass and diameter.
+    Given,
+}
+
+/// The ways to e, made comparable: the contact time of the model is taken out of the flights, and its drag out of the
+/// first rebound. Gravity is exact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Agreement {
+    bounces: usize,
+    ratio: Value,
+    eq25: Option<Value>,
+    eq30: Option<Value>,
+    /// e of the first impact by the height, the scatter of one bounce included, and e of the model.
+    first: Option<(Value, Value)>,
+    drag: Drag,
+}
+
+/// What makes estimates disagree.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Cause {
+    Drag,
+    HeightTooSmall,
+    HeightTooLarge,
+    Unheard,
+    NotKnown,
+}
+
+impl Cause {
+    /// The word for programs.
+    const fn code(self) -> &'static str {
+        match self {
+            Self::Drag => "air_drag",
+            Self::HeightTooSmall | Self::HeightTooLarge => "wrong_height",
+            Self::Unheard => "bounces_unheard",
+            Self::NotKnown => "estimates_disagree",
+        }
+    }
+}
+
+impl Agreement {
+    /// None where the flights give no e with an error.
+    pub(super) fn of(
+        timed: &[Timed],
+        flights: &Flights,
+        estimates: &Estimates,
+        modelled: &Modelled,
+        settings: &Settings,
+    ) -> Result<Option<Self>, Error> {
+        let Some(ratio) = estimates.flight_ratio.and_then(Value::of) else {
+            return Ok(None);
+        };
+        let first = match estimates.first_rebound {
+            // What e is at the speed of the first impact is what the model fits.
+            Some(_) if !modelled.by_speed => first(timed, flights, modelled, settings)?,
+            _ => None,
+        };
+        Ok(Some(Self {
+            bounces: timed.len(),
+            ratio: without_contact(ratio, timed, flights, modelled),
+            eq25: estimates.eq25.and_then(Value::of),
+            eq30: estimates.eq30.and_then(Value::of),
+            first,
+            drag: match (settings.mass_kg, settings.diameter_m) {
+                (Some(_), Some(_)) => Drag::Given,
+                _ if modelled.drag.is_some() || modelled.by_speed => Drag::Fitted,
+                _ => Drag::Unknown,
+            },
+        }))
+    }
+
+    /// The same without a total time.
+    pub(super) const fn without_end(mut self) -> Self {
+        (self.eq25, self.eq30) = (None, None);
+        self
+    }
+
+    /// What makes the estimates disagree; none where they agree, or where a drag that is given says why.
+    ///
+    /// | cause | first rebound | (30) | (25) |
+    /// |---|---|---|---|
+    /// | drag of the air | low: the fall and the fastest flight lose most | low, by nearly as much | low |
+    /// | height wrong by dh/h | off by −½·e·dh/h | off by −¼·(1 − e²)·dh/h: much less | as (30) |
+    /// | last bounces unheard | right | right within its error, which holds what is unheard | low: n contacts of (20) are too long |
+    fn cause(&self) -> Option<Cause> {
+        let low = |q: Option<Value>| q.is_some_and(|q| q.is_below(self.ratio));
+        let high = |q: Option<Value>| q.is_some_and(|q| self.ratio.is_below(q));
+        if let Some((first, e)) = self.first {
+            if e.is_below(first) {
+                return Some(Cause::HeightTooSmall);
+            }
+            if first.is_below(e) {
+                let drag = self.drag == Drag::Unknown && self.is_lower_than_by_height(first, e);
+                return Some(if drag {
+                    Cause::Drag
+                } else {
+                    Cause::HeightTooLarge
+                });
+            }
+        }
+        if high(self.eq25) || high(self.eq30) {
+            return Some(Cause::NotKnown);
+        }
+        match self.drag {
+            Drag::Given => None,
+            _ if low(self.eq30) => Some(Cause::Drag),
+            Drag::Fitted if low(self.eq25) => Some(Cause::Drag),
+            _ => low(self.eq25).then_some(Cause::Unheard),
+        }
+    }
+
+    /// Whether (30) is lower than a height alone makes it that brings the first rebound down so far.
+    fn is_lower_than_by_height(&self, first: Value, e: Value) -> bool {
+        let share = (1.0 - e.value * e.value) / (2.0 * e.value);
+        let by_height = Value {
+            value: self.ratio.value + share * (first.value - e.value),
+            std: self.ratio.std.hypot(share * first.std),
+        };
+        self.eq30.is_some_and(|q| q.is_below(by_height))
+    }
+
+    /// What the user should know where the ways to e disagree.
+    pub(super) fn warning(&self) -> Option<Warning> {
+        let cause = self.cause()?;
+        Some(Warning::new(cause.code(), self.message(cause)))
+    }
+
+    fn message(&self, cause: Cause) -> String {
+        let shown =
+            |v: Option<Value>| v.map_or_else(|| "-".to_owned(), |v| format!("{:.4}", v.value));
+        let (ratio, eq25, eq30) = (shown(Some(self.ratio)), shown(self.eq25), shown(self.eq30));
+        let (first, e) = self.first.unzip();
+        let (first, e) = (shown(first), shown(e));
+        match cause {
+            Cause::Drag if self.drag == Drag::Fitted => format!(
+                "equations (25) and (30) give {eq25} and {eq30} where the flights without contact give {ratio}: \
+                 they take no account of the air, which slows the ball, nor of an e that falls with speed. The \
+                 e of the model does"
+            ),
+            Cause::Drag => format!(
+                "equation (30) gives {eq30} and the first rebound {first} where the flights give {ratio}: the air \
+                 slows a light ball, which reads as a lower e. Give --mass and --diameter"
+            ),
+            Cause::HeightTooSmall => format!(
+                "the first rebound gives {first} where the flights give {e}: the ball was dropped from higher than \
+                 --height, or thrown"
+            ),
+            Cause::HeightTooLarge => format!(
+                "the first rebound gives {first} where the flights give {e}: the ball was dropped from lower than \
+                 --height. Measure from its lowest point; for a light ball give --mass and --diameter too"
+            ),
+            Cause::Unheard => format!(
+                "equation (25) gives {eq25} where the flights give {ratio}: it has the ball at rest after the {} \
+                 bounces heard, and more were too faint. Their number is a lower bound; trust the flights",
+                self.bounces
+            ),
+            Cause::NotKnown => format!(
+                "equations (25) and (30) give {eq25} and {eq30}, more than the flights' {ratio}: drag and unheard \
+                 bounces make them less, so check --height and whether the ball was touched"
+            ),
+        }
+    }
+}
+
+/// The ratio of the flights, the contact time of the model taken out of the first and the last.
+///
+/// # Formula
+/// ```text
+/// ln e′ = ln e + (ln(1 − C/D_b) − ln(1 − C/D_a))/(b − a)
+/// ```
+fn without_contact(ratio: Value, timed: &[Timed], flights: &Flights, modelled: &Modelled) -> Value {
+    let lengths = || (0..timed.len()).filter_map(|i| Some((i, flights.after(i)?)));
+    let (Some(contact), Some((a, first)), Some((b, last))) =
+        (modelled.contact, lengths().next(), lengths().next_back())
+    else {
+        return ratio;
+    };
+    if contact.value <= 0.0 || contact.value >= last || a == b {
+        return ratio;
+    }
+    let left = |interval_s: f64| (-contact.value / interval_s).ln_1p();
+    let shift = (left(last) - left(first)) / crate::units::real(b - a);
+    let value = ratio.value * shift.exp();
+    let doubt = value * shift * contact.std.unwrap_or(0.0) / contact.value;
+    Value {
+        value,
+        std: ratio.std.hypot(doubt),
+    }
+}
+
+/// e of the first impact by the height, contact and drag taken out, beside that of the model.
+///
+/// # Formula
+/// ```text
+/// e₁ = u(D_1 − C)/w(h0),   w = √(2·g·h0) without drag
+/// (σ/e₁)² = (u′·σ_D)² + (u′·σ_C)² + (σ_h/2h0)² + (σ_K·(h0/2g + T²/16))² + σ_bounce²
+/// ```
+/// and where mass and diameter are not given, what buoyancy and an e that falls with speed may do.
+fn first(
+    timed: &[Timed],
+    flights: &Flights,
+    modelled: &Modelled,
+    settings: &Settings,
+) -> Result<Option<(Value, Value)>, Error> {
+    let corrections = modelled.corrections();
+    let ends = flights.after(0).and_then(|d| corrections.ends(d));
+    let e = modelled
+        .restitution
+        .as_ref()
+        .and_then(|r| Value::of(r.estimate));
+    let (Some(ends), Some(e), Some(height_m)) = (ends, e, settings.height_m) else {
+        return Ok(None);
+    };
+    let law = law(modelled, settings)?;
+    let gravity = law.gravity_m_per_s2();
+    let leaving = 0.5 * gravity * ends.ln_leaving.exp();
+    let value = leaving / law.fall(height_m)?.landing_speed_m_per_s;
+    let std = |p: Option<crate::fit::model::Parameter>| p.and_then(|p| p.std).unwrap_or(0.0);
+    // d(ln e₁)/dK: what the fall loses, and what the flight after it.
+    let by_drag = 0.5 * height_m / gravity + flights.after(0).unwrap_or(0.0).powi(2) / 16.0;
+    let unknown = match (settings.mass_kg, settings.diameter_m) {
+        (Some(_), Some(_)) => 0.0,
+        _ => corrections.drag_per_s2 * BUOYANCY_PER_DRAG.hypot(DRAG_DOUBT * by_drag),
+    };
+    let parts = [
+        ends.leaving_slope * timed[0].std_s.hypot(timed[1].std_s),
+        ends.leaving_slope * std(modelled.contact),
+        0.5 * settings.height_std_m / height_m,
+        by_drag * std(modelled.drag),
+        unknown,
+        modelled
+            .bounce_std
+            .or_else(|| flights.scatter())
+            .unwrap_or(0.0),
+    ];
+    let relative = parts.iter().fold(0.0, |sum: f64, part| sum.hypot(*part));
+    let first = Value {
+        value,
+        std: value * relative,
+    };
+    Ok(Some((first, e)))
+}
+
+/// The law of the fall: by mass and diameter, or by the drag of the model.
+fn law(modelled: &Modelled, settings: &Settings) -> Result<FlightLaw, Error> {
+    if let Some(law) = super::model::law(settings)? {
+        return Ok(law);
+    }
+    let gravity = settings.gravity_m_per_s2;
+    match modelled.corrections().drag_per_s2 {
+        drag if drag > 0.0 => FlightLaw::with_terminal_speed(gravity, gravity / drag.sqrt()),
+        _ => FlightLaw::without_air(gravity),
+    }
+}
+
+#[cfg(test)]
+mod tests;
