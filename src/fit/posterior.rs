@@ -12,7 +12,7 @@ const BOUNCE: (f64, f64) = (1e-6, 0.3);
 /// Steps over that range in which the likelihood is searched for: a factor of four each, twice narrowed.
 const COARSE: usize = 10;
 const NARROWINGS: usize = 2;
-/// Steps over the part that matters: no longer than this in ln σ_e, and at least so many.
+/// Steps over the part that matters: no longer than this in `ln σ_e`, and at least so many.
 const FINE_STEP: f64 = 0.5;
 const FEWEST_STEPS: usize = 9;
 /// What lies this many nats below the best is left out.
@@ -47,7 +47,7 @@ impl Posterior {
     /// ```
     /// Jeffreys' prior: where the bounces' own noise is seen, `σ_e` is a scale; where the times hide it, that the data do
     /// not show it is no reason to believe that it is nothing, so small values count less ([`Noise::information`]).
-    /// Over ln σ_e by the trapezoidal rule, over ln φ by Gauss and Hermite's, laid where the posterior of φ is.
+    /// Over `ln σ_e` by the trapezoidal rule, over ln φ by Gauss and Hermite's, laid where the posterior of φ is.
     pub(super) fn over_noise(bounces: &Bounces, noise: &Noise, priors: &[Prior]) -> Option<Self> {
         let at = |ln_bounce: f64, timing: f64| {
             let sizes = Sizes {
