@@ -4,7 +4,9 @@ use super::bounces::{Known, Terms};
 use super::flights::Impact;
 use super::ladder::{Choice, Inputs, climb};
 use super::model::fit;
-use crate::physics::{FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
+use crate::physics::{
+    Air, FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution, Sphere,
+};
 use crate::random::SplitMix64;
 use crate::units::real;
 
@@ -263,5 +265,45 @@ fn a_linear_balls_contact_and_e_come_back_on_its_own_rung() {
             fasts * 100 >= 95 * DROPS,
             "{fasts} of {DROPS} at {contact_s} s"
         );
+    }
+}
+
+#[test]
+fn a_light_ball_is_not_taken_for_a_duller_one_where_mass_and_diameter_are_given() {
+    let ball = Sphere {
+        mass_kg: 2.5e-3,
+        diameter_m: 38e-3,
+    };
+    let law = FlightLaw::in_air(9.81, ball, Air::default()).unwrap();
+    let rate = law.gravity_m_per_s2() / law.terminal_speed_m_per_s().unwrap();
+    let inputs = Inputs {
+        contact_s: None,
+        drag_per_s2: Some(Known {
+            value: rate * rate,
+            std: 0.07 * rate * rate,
+        }),
+    };
+    // What the first ratio and the mean of 30 are off by, for which the drag is to blame.
+    for (height_m, first_off, mean_off) in [(0.305, 0.026, 0.005), (1.0, 0.07, 0.011)] {
+        let (mut at_s, mut speed) = (0.0, law.fall(height_m).unwrap().landing_speed_m_per_s);
+        let mut impacts = Vec::new();
+        for _ in 0..32 {
+            impacts.push(Impact {
+                time_s: at_s,
+                std_s: 1e-6,
+                heard: true,
+            });
+            let hop = law.hop(0.93 * speed).unwrap();
+            at_s += hop.time_s;
+            speed = hop.landing_speed_m_per_s;
+        }
+        let flight = |i: usize| impacts[i + 1].time_s - impacts[i].time_s;
+        let first = 0.93 - flight(1) / flight(0);
+        let mean = 0.93 - (flight(30) / flight(0)).powf(1.0 / 30.0);
+        assert!((first - first_off).abs() < 0.15 * first_off, "{first}");
+        assert!((mean - mean_off).abs() < 0.15 * mean_off, "{mean}");
+        let climb = climb(&impacts, &inputs, Choice::Drag).unwrap();
+        let e = climb.fit.ln_restitution.value.exp();
+        assert!((e - 0.93).abs() < 1e-4, "from {height_m} m: {e}");
     }
 }

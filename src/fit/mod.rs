@@ -12,6 +12,7 @@ pub mod model;
 mod noise;
 mod posterior;
 mod slowing;
+mod state;
 pub mod stray;
 pub mod total_time;
 mod weight;

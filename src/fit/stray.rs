@@ -1,9 +1,9 @@
 //! Bounces and times that stray: they are kept, and count for little.
 
 use super::least_squares::solve;
-use super::model::{State, pulls, time_pull};
 use super::noise::Sizes;
 use super::posterior::likeliest;
+use super::state::{State, pulls, time_pull};
 
 /// Nats that a stray has to be worth: one bounce or time in two hundred strays, `ln((1 − q)/q)` with q = 0.005.
 const PRICE: f64 = 5.293_304_824_724_492;
