@@ -2,6 +2,7 @@
 
 use super::{Ball, Drop, Impact, Model, Rejected, Report, Warning, table, wrap::wrapped};
 use crate::fit::Estimate;
+use crate::fit::ladder::ALIKE;
 use crate::fit::model::Budget;
 
 /// Lines that answer first (e, n, total time), then a table of impacts, then what was rejected, then warnings.
@@ -68,6 +69,9 @@ fn answer(out: &mut String, drop: &Drop) {
     if let Some(budget) = &drop.budget {
         entry(out, &format!("  error    {}", causes(budget)));
     }
+    if let Some(rivals) = rivals(&drop.model) {
+        entry(out, &format!("  models   {rivals}"));
+    }
     let estimates = &drop.estimates;
     let others = [
         ("flight ratios", estimates.flight_ratio),
@@ -104,6 +108,30 @@ fn model(drop: &Drop) -> Option<String> {
     .flatten()
     .collect();
     (!terms.is_empty()).then(|| format!("{}: {}", name(&drop.model), terms.join(", ")))
+}
+
+/// By how much the model is better than constant e, and which others are as likely: `10.2 nats better than constant e; as
+/// likely: linear (e 0.8641)`.
+fn rivals(model: &Model) -> Option<String> {
+    let gain = |name: &str| {
+        let found = model.candidates.iter().find(|c| c.model == name);
+        found.map(|c| c.gain_nats)
+    };
+    let own = gain(model.selected)?;
+    let mut parts = Vec::new();
+    if let Some(constant) = gain("constant").filter(|_| model.selected != "constant") {
+        parts.push(format!("{:.1} nats better than constant e", own - constant));
+    }
+    let as_likely = model.candidates.iter().filter(|c| {
+        c.model != model.selected && c.model != "constant" && (c.gain_nats - own).abs() < ALIKE
+    });
+    let named: Vec<String> = as_likely
+        .map(|c| format!("{} (e {:.4})", c.model, c.restitution))
+        .collect();
+    if !named.is_empty() {
+        parts.push(format!("as likely: {}", named.join(", ")));
+    }
+    (!parts.is_empty()).then(|| parts.join("; "))
 }
 
 /// The name of a model, with what it has because it was given: `constant e, with the contact time given`.
@@ -220,6 +248,7 @@ fn warnings(out: &mut String, warnings: &[Warning]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::ladder::Candidate;
 
     #[test]
     fn a_model_says_what_it_has_because_it_was_given() {
@@ -236,6 +265,31 @@ mod tests {
         assert_eq!(contact, "constant e, with the contact time given");
         let both = named("speed", &["contact_time", "drag"]);
         assert_eq!(both, "speed, with the contact time and drag given");
+    }
+
+    #[test]
+    fn a_model_is_told_against_constant_e_and_those_as_likely() {
+        let candidate = |model, gain_nats, restitution| Candidate {
+            model,
+            gain_nats,
+            restitution,
+        };
+        let mut model = Model {
+            selected: "contact",
+            candidates: vec![
+                candidate("constant", 0.0, 0.88),
+                candidate("contact", 10.2, 0.878),
+                candidate("linear", 9.0, 0.864),
+                candidate("drag", 1.0, 0.87),
+            ],
+            ..Model::none()
+        };
+        assert_eq!(
+            rivals(&model).unwrap(),
+            "10.2 nats better than constant e; as likely: linear (e 0.8640)"
+        );
+        model.selected = "constant";
+        assert_eq!(rivals(&model).unwrap(), "as likely: drag (e 0.8700)");
     }
 
     #[test]
