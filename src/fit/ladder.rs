@@ -2,7 +2,7 @@
 
 use super::bounces::{Known, Terms};
 use super::flights::Impact;
-use super::model::{Fit, Fitted};
+use super::model::{Fit, Fitted, Rival};
 
 /// Which rung to take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
@@ -180,7 +180,7 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         .map(|(i, (rung, fit))| Candidate {
             model: rung.name,
             gain_nats: gain(i),
-            restitution: fit.ln_restitution().exp(),
+            restitution: fit.ln_restitution().0.exp(),
         })
         .collect();
     let selected = fits[best].0;
@@ -188,28 +188,26 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let alike = (0..fits.len())
         .find(|&i| rival(fits[i].0) && (gain(i) - gain(best)).abs() < ALIKE)
         .map(|i| fits[i].0.name);
-    let spread = spread(&candidates, best);
+    // A rung is not preferred by less than it costs, so the one taken may have the lower evidence.
+    let rivals: Vec<Rival> = fits
+        .iter()
+        .enumerate()
+        .map(|(i, (_, fit))| {
+            let (ln_restitution, std) = fit.ln_restitution();
+            Rival {
+                weight: (gain(i) - gain(best)).exp(),
+                ln_restitution,
+                std,
+            }
+        })
+        .collect();
     let (_, fit) = fits.into_iter().nth(best)?;
     Some(Climb {
         selected: selected.name,
-        fit: fit.summary().widened(spread),
+        fit: fit.summary().among(&rivals),
         candidates,
         alike,
     })
-}
-
-/// How far ln e of the other rungs lies from that of the one taken, each by its odds: the root of
-/// `Σ w_k·(ln e_k − ln e)²`, `w_k ∝ exp(gain_k)`.
-fn spread(candidates: &[Candidate], taken: usize) -> f64 {
-    let best = &candidates[taken];
-    let (mut sum, mut weights) = (0.0, 0.0);
-    for candidate in candidates {
-        // A rung is not preferred by less than it costs, so the one taken may have the lower evidence.
-        let weight = (candidate.gain_nats - best.gain_nats).exp();
-        sum += weight * (candidate.restitution / best.restitution).ln().powi(2);
-        weights += weight;
-    }
-    (sum / weights).sqrt()
 }
 
 /// A term whose value is known is part of every rung and not a rung of its own.

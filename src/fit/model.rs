@@ -1,5 +1,7 @@
 //! One model fitted to the impact times of a drop: e with an interval that is true.
 
+use statrs::distribution::{ContinuousCDF, Normal};
+
 use super::bounces::{Bounces, Known, Terms};
 use super::flights::Impact;
 use super::least_squares::Prior;
@@ -66,20 +68,47 @@ pub struct Budget {
 }
 
 impl Fit {
-    /// The fit where ln e may be off by as much again as other models spread (one standard deviation): variances are
-    /// added, and both ends of the interval move out as those of a normal distribution would.
+    /// The fit where one of several models may be the right one, this one among them: the interval is that of their
+    /// mixture, the variance is taken about this one's value.
+    ///
+    /// # Formula
+    /// ```text
+    /// σ² = Σ w_k·[(ln e_k − ln e)² + σ_k²],   interval: where Σ w_k·Φ((x − ln e_k)/(r·σ_k)) is 0.025 and 0.975
+    /// ```
+    /// w are the odds of the models, together 1; r is by how much this one's own interval is longer than a normal
+    /// distribution's, for its tails are Student's.
     #[must_use]
-    pub fn widened(mut self, spread: f64) -> Self {
+    pub(super) fn among(mut self, models: &[Rival]) -> Self {
         let Parameter {
             value,
             std,
             interval95,
         } = &mut self.ln_restitution;
-        if let (Some(std), Some(ends)) = (std, interval95) {
-            let reach = |end: f64| (end - *value).hypot(NORMAL95 * spread);
-            *ends = [*value - reach(ends[0]), *value + reach(ends[1])];
-            let own = (*std / std.hypot(spread).max(f64::MIN_POSITIVE)).powi(2);
-            *std = std.hypot(spread);
+        let total: f64 = models.iter().map(|m| m.weight).sum();
+        if let (Some(std), Some(ends), true) = (std, interval95, total > 0.0) {
+            let mean_of = |of: &dyn Fn(&Rival) -> f64| {
+                models.iter().map(|m| m.weight * of(m)).sum::<f64>() / total
+            };
+            let variance = mean_of(&|m| (m.ln_restitution - *value).powi(2) + m.std * m.std);
+            let longer = (ends[1] - ends[0]) / (2.0 * NORMAL95 * *std);
+            let normal = Normal::standard();
+            let below =
+                |x: f64| mean_of(&|m| normal.cdf((x - m.ln_restitution) / (longer * m.std)));
+            let reach = FAR * variance.sqrt() * longer.max(1.0);
+            *ends = [0.025, 0.975].map(|p| {
+                let (mut low, mut high) = (*value - reach, *value + reach);
+                for _ in 0..HALVINGS {
+                    let middle = 0.5 * (low + high);
+                    if below(middle) < p {
+                        low = middle;
+                    } else {
+                        high = middle;
+                    }
+                }
+                0.5 * (low + high)
+            });
+            let own = (*std * *std / variance).min(1.0);
+            *std = variance.sqrt();
             let b = &mut self.budget;
             for share in [
                 &mut b.timing,
@@ -95,8 +124,20 @@ impl Fit {
     }
 }
 
+/// A model that may be the right one: its odds, its ln e and the standard error of that.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Rival {
+    pub weight: f64,
+    pub ln_restitution: f64,
+    pub std: f64,
+}
+
 /// Standard deviations of a normal distribution within which 95 % lie.
 const NORMAL95: f64 = 1.959_964;
+/// No more than 1 in 100 of a mixture lies beyond so many of its standard deviations (Chebyshev).
+const FAR: f64 = 10.0;
+/// Twenty standard deviations halved so often leave a hundred-thousandth of one.
+const HALVINGS: usize = 21;
 
 /// Fits a model. None for fewer than three impacts, a flight that is not longer than the contact, or parameters that run
 /// away.
@@ -142,9 +183,9 @@ impl<'a> Fitted<'a> {
         self.posterior.ln_evidence
     }
 
-    /// The mean of ln e.
-    pub(super) fn ln_restitution(&self) -> f64 {
-        self.posterior.moments(0).0
+    /// Mean and standard deviation of ln e.
+    pub(super) fn ln_restitution(&self) -> (f64, f64) {
+        self.posterior.moments(0)
     }
 
     pub(super) fn summary(self) -> Fit {
