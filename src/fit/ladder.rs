@@ -188,12 +188,13 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let alike = (0..fits.len())
         .find(|&i| rival(fits[i].0) && (gain(i) - gain(best)).abs() < ALIKE)
         .map(|i| fits[i].0.name);
-    // A rung is not preferred by less than it costs, so the one taken may have the lower evidence.
-    let rivals: Vec<Rival> = fits
-        .iter()
-        .enumerate()
-        .map(|(i, (_, fit))| {
-            let (ln_restitution, std) = fit.ln_restitution();
+    // A rung is not preferred by less than it costs, so the one taken may have the lower evidence. What is much less likely
+    // is discarded (Occam's window): far off, it would widen the standard error and not the interval.
+    let highest = (0..fits.len()).map(gain).fold(f64::NEG_INFINITY, f64::max);
+    let rivals: Vec<Rival> = (0..fits.len())
+        .filter(|&i| i == best || gain(i) > highest - ALIKE)
+        .map(|i| {
+            let (ln_restitution, std) = fits[i].1.ln_restitution();
             Rival {
                 weight: (gain(i) - gain(best)).exp(),
                 ln_restitution,
