@@ -106,8 +106,8 @@ impl<R: Read> Stream<R> {
     /// What is known after the last block.
     ///
     /// # Errors
-    /// [`Error::Wav`] if there was no audio.
-    pub fn finish(self) -> Result<Ending, Error> {
+    /// [`Error::Wav`] if there was no audio; [`Error::Io`] if reading what follows it fails.
+    pub fn finish(mut self) -> Result<Ending, Error> {
         if self.frames == 0 {
             return Err(wav("it holds no audio"));
         }
@@ -124,6 +124,10 @@ impl<R: Read> Stream<R> {
                 "{} samples are not finite numbers and were read as zero",
                 self.not_finite
             ));
+        }
+        if self.left == 0 && self.container.more_follow(&mut self.source)? {
+            let message = "samples follow in a second chunk of them; only the first was read";
+            warnings.push(message.to_owned());
         }
         let frames = usize::try_from(self.frames).map_or(f64::INFINITY, real);
         Ok(Ending {
