@@ -138,7 +138,7 @@ const TABLE: [Row; 47] = [
         FLOAT,
         4810,
         "32-bit float",
-        &["10 samples are not finite"],
+        &["read as zero: 10"],
     ),
     (
         "36_two_data",

@@ -33,14 +33,18 @@ impl Heard {
     pub(super) fn warning(self) -> Warning {
         // The first sound rises out of the silence before it, so a recording without a scene is silent.
         if !self.sound {
-            return Warning::new("silence", "the recording is silent: every sample is zero");
+            return Warning::new(
+                "silence",
+                "the recording is silent: nothing in it is louder than -140 dB for a millisecond or more. Check that the \
+                 right input was recorded",
+            );
         }
         let message = match self.noticeable {
             0 => "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that \
                   the right input was recorded"
                 .to_owned(),
             1..=3 => format!(
-                "only {} sharp sounds: a drop takes four impacts or more. Drop the ball from higher, or record for \
+                "sharp sounds: {}, but a drop takes four impacts or more. Drop the ball from higher, or record for \
                  longer",
                 self.noticeable
             ),

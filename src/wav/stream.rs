@@ -115,13 +115,14 @@ impl<R: Read> Stream<R> {
         warnings.extend(self.length_warning());
         if self.torn_bytes > 0 {
             warnings.push(format!(
-                "{} bytes after the last whole frame were left out",
-                self.torn_bytes
+                "what follows the last whole frame was left out: {} of {} bytes",
+                self.torn_bytes,
+                self.container.frame_bytes()
             ));
         }
         if self.not_finite > 0 {
             warnings.push(format!(
-                "{} samples are not finite numbers and were read as zero",
+                "samples that are not finite numbers were read as zero: {}",
                 self.not_finite
             ));
         }
@@ -143,7 +144,7 @@ impl<R: Read> Stream<R> {
         };
         let missing = (claimed / self.container.frame_bytes() as u64).saturating_sub(self.frames);
         (missing > 0).then(|| {
-            format!("the file ends {missing} frames before its header says; the rest was read")
+            format!("the file ends before its header says, by {missing} frames; the rest was read")
         })
     }
 }
