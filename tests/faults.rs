@@ -275,7 +275,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 /// Settings out of range, for a recording that holds a drop.
-const SETTINGS: [&str; 29] = [
+const SETTINGS: [&str; 31] = [
     "--start 5 --end 4",
     "--start -1",
     "--start 1000",
@@ -299,6 +299,8 @@ const SETTINGS: [&str; 29] = [
     "--contact-time 0",
     "--contact-time 10s",
     "--contact-time 1s",
+    "--contact-time 20ms",
+    "--contact-time 80us",
     "--channel 0",
     "--channel 2",
     "--channel 99999999999999999999",

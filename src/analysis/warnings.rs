@@ -124,6 +124,20 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
     warnings
 }
 
+/// A contact time that was given, where two impacts are nearer than that.
+pub(super) fn of_contact(given_s: Option<f64>, timed: &[Timed]) -> Option<Warning> {
+    let apart_s = timed.windows(2).map(|w| w[1].time_s - w[0].time_s);
+    let shortest_s = apart_s.fold(f64::INFINITY, f64::min);
+    let given_s = given_s.filter(|&given_s| given_s >= shortest_s)?;
+    let message = format!(
+        "a contact of {} ms does not fit between impacts {:.1} ms apart, and nothing that rests on it holds: check \
+         --contact-time",
+        1e3 * given_s,
+        1e3 * shortest_s
+    );
+    Some(Warning::new("contact_too_long", message))
+}
+
 fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
     let sound = stretch.between(time_s - 1e-3, time_s + 5e-3);
     sound.iter().filter(|x| x.abs() >= CLIPPED).count() >= CLIPPED_SAMPLES
