@@ -63,12 +63,21 @@ pub enum Error {
     },
 }
 
+/// A number as a person would write it: `1e300` rather than a one and 300 zeros.
+fn in_words(number: f64) -> String {
+    if number == 0.0 || (1e-6..1e15).contains(&number.abs()) {
+        number.to_string()
+    } else {
+        format!("{number:e}")
+    }
+}
+
 impl Error {
     /// An [`Error::Argument`] for a number that is out of range.
     pub(crate) fn argument(argument: &'static str, got: f64, expected: &'static str) -> Self {
         Self::Argument {
             argument,
-            got: got.to_string(),
+            got: in_words(got),
             expected,
         }
     }
@@ -79,6 +88,26 @@ impl Error {
         Self::InFile {
             path: path.into(),
             source: Box::new(self),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::in_words;
+
+    #[test]
+    fn numbers_are_short() {
+        for (number, words) in [
+            (0.0, "0"),
+            (-1.5, "-1.5"),
+            (4e9, "4000000000"),
+            (1e300, "1e300"),
+            (-2e-9, "-2e-9"),
+            (f64::NAN, "NaN"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(in_words(number), words);
         }
     }
 }

@@ -160,3 +160,25 @@ fn the_core_touches_nothing_outside() {
         }
     }
 }
+
+/// The crates that a table of TOML names, up to the next table.
+fn dependencies(manifest: &str) -> Vec<&str> {
+    let table = manifest.split("\n[dependencies]\n").nth(1).unwrap();
+    let lines = table.lines().take_while(|line| !line.starts_with('['));
+    let named = lines.filter_map(|line| Some(line.split_once('=')?.0.trim()));
+    let mut names: Vec<&str> = named.collect();
+    names.sort_unstable();
+    names
+}
+
+#[test]
+fn every_dependency_is_accounted_for_and_unsafe_code_is_forbidden() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let manifest = fs::read_to_string(root.join("Cargo.toml")).unwrap();
+    let text = fs::read_to_string(root.join("docs/dependencies.md")).unwrap();
+    let rows = text.lines().filter_map(|line| line.strip_prefix("| `"));
+    let mut explained: Vec<&str> = rows.filter_map(|row| row.split('`').next()).collect();
+    explained.sort_unstable();
+    assert_eq!(explained, dependencies(&manifest));
+    assert!(manifest.contains("unsafe_code = \"forbid\""));
+}

@@ -50,6 +50,7 @@ pub(super) fn measure(
     let flights = Flights::between(&timed);
     let ratio = flights.ratio();
     let mut warnings = warnings::of_chain(stretch, &timed, chain);
+    warnings.extend(warnings::of_contact(settings.contact_time_s, &timed));
     let (total, first_rebound) = match (ratio, settings.height_m) {
         (Some(ratio), Some(height_m)) => {
             let height = by_height(&timed, &flights, ratio.value, height_m, settings)?;

@@ -14,6 +14,8 @@ mod warnings;
 
 pub use listener::Listener;
 
+use std::ops::RangeInclusive;
+
 use crate::Error;
 use crate::detect::refine::Timing;
 use crate::detect::{self, Candidate};
@@ -72,35 +74,23 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// Ranges reach far beyond any ball, and stay where no product of settings leaves those of the physics.
     fn check(&self) -> Result<(), Error> {
-        let positive = |name, value: f64| {
-            if value.is_finite() && value > 0.0 {
-                Ok(())
-            } else {
-                Err(Error::argument(name, value, "above 0"))
-            }
+        let within = |name, value: Option<f64>, range: RangeInclusive<f64>, expected| match value {
+            Some(value) if !range.contains(&value) => Err(Error::argument(name, value, expected)),
+            _ => Ok(()),
         };
-        positive("gravity", self.gravity_m_per_s2)?;
-        for (name, value) in [
-            ("height", self.height_m),
-            ("mass", self.mass_kg),
-            ("diameter", self.diameter_m),
-            ("contact time", self.contact_time_s),
-        ] {
-            value.map_or(Ok(()), |v| positive(name, v))?;
-        }
-        if !(self.height_std_m.is_finite() && self.height_std_m >= 0.0) {
-            return Err(Error::argument(
-                "height error",
-                self.height_std_m,
-                "0 or more",
-            ));
-        }
-        for (name, time) in [("start", self.start_s), ("end", self.end_s)] {
-            if let Some(time) = time.filter(|t| !t.is_finite() || *t < 0.0) {
-                return Err(Error::argument(name, time, "0 s or more"));
-            }
-        }
+        let gravity = Some(self.gravity_m_per_s2);
+        within("gravity", gravity, 1e-3..=1e6, "0.001 to 1000000 m/s²")?;
+        within("height", self.height_m, 1e-6..=1e4, "1 µm to 10 km")?;
+        let height_error = Some(self.height_std_m);
+        within("height error", height_error, 0.0..=1e4, "0 to 10 km")?;
+        within("mass", self.mass_kg, 1e-9..=1e6, "1 µg to 1000 t")?;
+        within("diameter", self.diameter_m, 1e-6..=1e3, "1 µm to 1 km")?;
+        let contact_time = self.contact_time_s;
+        within("contact time", contact_time, 1e-9..=1.0, "1 ns to 1 s")?;
+        within("start", self.start_s, 0.0..=f64::MAX, "0 s or more")?;
+        within("end", self.end_s, 0.0..=f64::MAX, "0 s or more")?;
         match (self.start_s, self.end_s) {
             (Some(start), Some(end)) if end <= start => {
                 Err(Error::argument("end", end, "after the start"))

@@ -33,14 +33,18 @@ impl Heard {
     pub(super) fn warning(self) -> Warning {
         // The first sound rises out of the silence before it, so a recording without a scene is silent.
         if !self.sound {
-            return Warning::new("silence", "the recording is silent: every sample is zero");
+            return Warning::new(
+                "silence",
+                "the recording is silent: nothing in it is louder than -140 dB for a millisecond or more. Check that the \
+                 right input was recorded",
+            );
         }
         let message = match self.noticeable {
             0 => "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that \
                   the right input was recorded"
                 .to_owned(),
             1..=3 => format!(
-                "only {} sharp sounds: a drop takes four impacts or more. Drop the ball from higher, or record for \
+                "sharp sounds: {}, but a drop takes four impacts or more. Drop the ball from higher, or record for \
                  longer",
                 self.noticeable
             ),
@@ -118,6 +122,20 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
         warnings.push(Warning::new("late_start", message));
     }
     warnings
+}
+
+/// A contact time that was given, where two impacts are nearer than that.
+pub(super) fn of_contact(given_s: Option<f64>, timed: &[Timed]) -> Option<Warning> {
+    let apart_s = timed.windows(2).map(|w| w[1].time_s - w[0].time_s);
+    let shortest_s = apart_s.fold(f64::INFINITY, f64::min);
+    let given_s = given_s.filter(|&given_s| given_s >= shortest_s)?;
+    let message = format!(
+        "a contact of {} ms does not fit between impacts {:.1} ms apart, and nothing that rests on it holds: check \
+         --contact-time",
+        1e3 * given_s,
+        1e3 * shortest_s
+    );
+    Some(Warning::new("contact_too_long", message))
 }
 
 fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {

@@ -1,11 +1,12 @@
-//! The walk over the RIFF chunks, up to the first sample.
+//! The walk over the RIFF chunks, up to the first sample and past the last.
 //!
 //! hound alone reads about half of the WAV files that programs write: it never skips the pad byte after an odd chunk
-//! and refuses streamed sizes. So the chunks are walked here, every length untrusted, and hound is handed a canonical
-//! header to judge the format by its own rules.
+//! and refuses streamed sizes. So the chunks are walked here, every length untrusted: none is ever room to be set
+//! aside, and a file may end anywhere.
 
 use std::io::{ErrorKind, Read};
 
+use super::format::Format;
 use super::wav;
 use crate::Error;
 
@@ -18,6 +19,12 @@ pub enum SampleKind {
     Signed,
     /// IEEE float of 4 bytes.
     Float32,
+    /// IEEE float of 8 bytes.
+    Float64,
+    /// G.711 A-law, 1 byte.
+    ALaw,
+    /// G.711 µ-law, 1 byte.
+    MuLaw,
 }
 
 /// Where the samples are and how they are stored; the stream stands at the first of them.
@@ -37,8 +44,10 @@ pub struct Container {
     pub warnings: Vec<String>,
 }
 
-/// The longest chunk before the samples that is skipped: pictures and logs stay far below it.
+/// The longest chunk that is skipped: pictures and logs stay far below it.
 const LONGEST_SKIP: u64 = 1 << 28;
+/// A length of 32 bits that stands for one in the `ds64` chunk, or for none: a stream had not ended.
+const LENGTH_ELSEWHERE: u64 = 0xFFFF_FFFF;
 
 impl Container {
     /// Walks to the first sample.
@@ -46,30 +55,47 @@ impl Container {
     /// # Errors
     /// [`Error::Wav`] saying what is not a WAV about it; [`Error::Io`] if reading fails.
     pub fn open(stream: &mut impl Read) -> Result<Self, Error> {
-        let mut riff = [0; 12];
-        match fill(stream, &mut riff)? {
-            0 => return Err(wav("it is empty")),
-            12 if &riff[..4] == b"RIFF" && &riff[8..] == b"WAVE" => {}
-            _ if &riff[..4] == b"RIFX" => return Err(wav("it is RIFX (big-endian), not RIFF")),
-            _ => return Err(wav("it does not start with RIFF and WAVE")),
-        }
-        let mut format = None;
-        loop {
-            let mut head = [0; 8];
-            if fill(stream, &mut head)? < 8 {
-                return Err(wav("it ends before its samples"));
-            }
-            let length = u64::from(u32::from_le_bytes([head[4], head[5], head[6], head[7]]));
-            match &head[..4] {
-                b"fmt " => format = Some(Format::read(stream, length)?),
+        check_magic(stream)?;
+        let (mut format, mut long) = (None, None);
+        let mut odd = false;
+        while let Some(chunk) = Head::read(stream, odd)? {
+            match &chunk.id {
+                b"fmt " => format = Some(Format::of(&body(stream, chunk.length)?)?),
+                b"ds64" => long = data_length(&body(stream, chunk.length)?),
                 b"data" => {
-                    let format =
+                    let format: Format =
                         format.ok_or_else(|| wav("its samples come before their format"))?;
-                    return format.into_container(length);
+                    let length = match chunk.length {
+                        LENGTH_ELSEWHERE => long,
+                        length => Some(length),
+                    };
+                    return format.into_container(length.filter(|&l| l != 0 && l != u64::MAX));
                 }
-                _ => skip(stream, length + length % 2)?,
+                _ => skip(stream, chunk.length)?,
             }
+            odd = chunk.length % 2 == 1;
         }
+        Err(wav("it ends before its samples"))
+    }
+
+    /// Whether more samples follow behind those that the stream has just passed, in a chunk of their own.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if reading fails.
+    pub(super) fn more_follow(&self, stream: &mut impl Read) -> Result<bool, Error> {
+        let mut odd = self.claimed_bytes.is_some_and(|length| length % 2 == 1);
+        while let Some(chunk) = Head::read(stream, odd)? {
+            if &chunk.id == b"data" {
+                return Ok(true);
+            }
+            // What cannot be a chunk is no reason to refuse samples that were read.
+            if chunk.length > LONGEST_SKIP {
+                break;
+            }
+            skip(stream, chunk.length)?;
+            odd = chunk.length % 2 == 1;
+        }
+        Ok(false)
     }
 
     /// Bytes of one frame: a sample of every channel.
@@ -81,109 +107,71 @@ impl Container {
     /// The storage in words, such as `16-bit integer`.
     #[must_use]
     pub fn encoding(&self) -> String {
-        let kind = if self.kind == SampleKind::Float32 {
-            "float"
-        } else {
-            "integer"
+        let kind = match self.kind {
+            SampleKind::Unsigned8 | SampleKind::Signed => "integer",
+            SampleKind::Float32 | SampleKind::Float64 => "float",
+            SampleKind::ALaw => "A-law",
+            SampleKind::MuLaw => "µ-law",
         };
         format!("{}-bit {kind}", 8 * self.bytes_per_sample)
     }
 }
 
-/// The content of a `fmt ` chunk.
-#[derive(Debug, Clone, Copy)]
-struct Format {
-    tag: u16,
-    channels: u16,
-    sample_rate_hz: u32,
-    frame_bytes: u16,
-    bits: u16,
+/// RIFF, or one of its forms with lengths of 64 bits: RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088).
+fn check_magic(stream: &mut impl Read) -> Result<(), Error> {
+    let mut magic = [0; 12];
+    let got = fill(stream, &mut magic)?;
+    match (&magic[..4], &magic[8..]) {
+        _ if got == 0 => Err(wav("it is empty")),
+        (b"RIFF" | b"RF64" | b"BW64", b"WAVE") => Ok(()),
+        (b"RIFX", _) => Err(wav("it is RIFX (big-endian), not RIFF")),
+        _ => Err(wav("it does not start with RIFF and WAVE")),
+    }
 }
 
-const TAG_PCM: u16 = 1;
-const TAG_FLOAT: u16 = 3;
-const TAG_EXTENSIBLE: u16 = 0xFFFE;
+/// How a chunk begins.
+struct Head {
+    id: [u8; 4],
+    length: u64,
+}
 
-impl Format {
-    fn read(stream: &mut impl Read, length: u64) -> Result<Self, Error> {
-        let mut body = [0; 40];
-        let known = usize::try_from(length.min(40)).unwrap_or(40);
-        if known < 16 || fill(stream, &mut body[..known])? < known {
-            return Err(wav("its format chunk is too short"));
+impl Head {
+    /// Reads the next one; none at the end. A chunk of odd length is followed by a zero, which some programs leave out
+    /// and some fill with anything.
+    fn read(stream: &mut impl Read, after_odd: bool) -> Result<Option<Self>, Error> {
+        let mut bytes = [0; 9];
+        if fill(stream, &mut bytes[..8])? < 8 {
+            return Ok(None);
         }
-        skip(stream, length - length.min(40) + length % 2)?;
-        let u16_at = |i: usize| u16::from_le_bytes([body[i], body[i + 1]]);
-        let mut tag = u16_at(0);
-        if tag == TAG_EXTENSIBLE && known >= 26 {
-            // The first two bytes of the sub-format GUID are the tag that the plain header would carry.
-            tag = u16_at(24);
+        let padded =
+            after_odd && (bytes[0] == 0 || matches!(&bytes[1..5], b"fmt " | b"data" | b"LIST"));
+        if padded && fill(stream, &mut bytes[8..])? < 1 {
+            return Ok(None);
         }
-        Ok(Self {
-            tag,
-            channels: u16_at(2),
-            sample_rate_hz: u32::from_le_bytes([body[4], body[5], body[6], body[7]]),
-            frame_bytes: u16_at(12),
-            bits: u16_at(14),
-        })
+        let (_, [a, b, c, d, length @ ..]) = bytes.split_at(usize::from(padded)) else {
+            return Ok(None);
+        };
+        let length = length.first_chunk().map_or(0, |l| u32::from_le_bytes(*l));
+        Ok(Some(Self {
+            id: [*a, *b, *c, *d],
+            length: u64::from(length),
+        }))
     }
+}
 
-    fn into_container(self, data_length: u64) -> Result<Container, Error> {
-        if self.channels == 0 {
-            return Err(wav("it has no channels"));
-        }
-        if self.sample_rate_hz == 0 {
-            return Err(wav("its sample rate is 0"));
-        }
-        let bytes_per_sample = self.frame_bytes / self.channels;
-        let kind = match (self.tag, bytes_per_sample) {
-            (TAG_PCM, 1) => SampleKind::Unsigned8,
-            (TAG_PCM, 2..=4) => SampleKind::Signed,
-            (TAG_FLOAT, 4) => SampleKind::Float32,
-            (tag, _) => {
-                return Err(wav(format!(
-                    "its samples (format {tag}, {} bits) are of a kind not read yet",
-                    self.bits
-                )));
-            }
-        };
-        self.ask_hound(kind, bytes_per_sample)?;
-        let claimed_bytes = match data_length {
-            0 | 0xFFFF_FFFF => None,
-            length => Some(length),
-        };
-        Ok(Container {
-            kind,
-            bytes_per_sample,
-            channels: self.channels,
-            sample_rate_hz: self.sample_rate_hz,
-            claimed_bytes,
-            warnings: Vec::new(),
-        })
-    }
+/// The first bytes of a chunk, and past the rest of it. Of a short chunk fewer come.
+fn body(stream: &mut impl Read, length: u64) -> Result<Vec<u8>, Error> {
+    /// As much as any chunk holds that is looked into.
+    const MOST: u64 = 40;
+    let mut bytes = Vec::new();
+    stream.take(length.min(MOST)).read_to_end(&mut bytes)?;
+    skip(stream, length - length.min(MOST))?;
+    Ok(bytes)
+}
 
-    /// Has hound judge the format from a canonical header over no samples.
-    fn ask_hound(self, kind: SampleKind, bytes_per_sample: u16) -> Result<(), Error> {
-        let tag = if kind == SampleKind::Float32 {
-            TAG_FLOAT
-        } else {
-            TAG_PCM
-        };
-        let frame_bytes = u32::from(bytes_per_sample) * u32::from(self.channels);
-        let byte_rate = self.sample_rate_hz.saturating_mul(frame_bytes);
-        let mut header = Vec::with_capacity(44);
-        header.extend_from_slice(b"RIFF\x24\0\0\0WAVEfmt \x10\0\0\0");
-        header.extend_from_slice(&tag.to_le_bytes());
-        header.extend_from_slice(&self.channels.to_le_bytes());
-        header.extend_from_slice(&self.sample_rate_hz.to_le_bytes());
-        header.extend_from_slice(&byte_rate.to_le_bytes());
-        header.extend_from_slice(&self.frame_bytes.to_le_bytes());
-        header.extend_from_slice(&(8 * bytes_per_sample).to_le_bytes());
-        header.extend_from_slice(b"data\0\0\0\0");
-        match hound::WavReader::new(header.as_slice()) {
-            Ok(_) => Ok(()),
-            Err(e) => Err(wav(format!("its format is refused: {e}"))),
-        }
-    }
+/// The length of the samples in a `ds64` chunk: its second number.
+fn data_length(ds64: &[u8]) -> Option<u64> {
+    Some(u64::from_le_bytes(*ds64.get(8..)?.first_chunk()?))
 }
 
 /// Reads until `buffer` is full or the stream ends; gives the number of bytes read.
@@ -203,7 +191,8 @@ pub(super) fn fill(stream: &mut impl Read, buffer: &mut [u8]) -> Result<usize, E
 fn skip(stream: &mut impl Read, length: u64) -> Result<(), Error> {
     if length > LONGEST_SKIP {
         return Err(wav(format!(
-            "a chunk of {length} bytes stands before its samples"
+            "it names a chunk of {length} bytes before its samples, expected at most {LONGEST_SKIP}: its lengths are \
+             damaged"
         )));
     }
     std::io::copy(&mut stream.take(length), &mut std::io::sink())?;

@@ -11,9 +11,10 @@ const FULL_SCALE_32: f32 = 65_536.0 * 32_768.0;
 /// finite.
 ///
 /// Full scale of each integer width is a power of two, so scaling is exact; 32-bit integers are rounded to the
-/// 24 bits of an `f32`, which is below the noise of any microphone.
+/// 24 bits of an `f32`, which is below the noise of any microphone, and so are 64-bit floats.
 #[expect(
     clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
     reason = "an f32 keeps 24 bits, more than a microphone gives"
 )]
 pub(super) fn decode(
@@ -40,17 +41,41 @@ pub(super) fn decode(
         (SampleKind::Signed, _) => frames.spread(out, |&b| {
             i32::from_le_bytes(b) as f32 * (1.0 / FULL_SCALE_32)
         }),
+        (SampleKind::ALaw, _) => {
+            frames.spread(out, |&[b]| f32::from(a_law(b)) * (1.0 / 32_768.0));
+        }
+        (SampleKind::MuLaw, _) => {
+            frames.spread(out, |&[b]| f32::from(mu_law(b)) * (1.0 / 32_768.0));
+        }
         (SampleKind::Float32, _) => {
-            let known: Vec<usize> = out.iter().map(Vec::len).collect();
-            frames.spread(out, |&b| f32::from_le_bytes(b));
-            let new = out
-                .iter_mut()
-                .zip(known)
-                .map(|(out, known)| &mut out[known..]);
-            return new.map(zero_what_is_not_finite).sum();
+            return frames.spread_finite(out, |&b| f32::from_le_bytes(b));
+        }
+        (SampleKind::Float64, _) => {
+            return frames.spread_finite(out, |&b| f64::from_le_bytes(b) as f32);
         }
     }
     0
+}
+
+/// A sample of ITU-T G.711 A-law as one of 16 bits: sign, 3 bits that say which power of two, 4 bits within it, with
+/// every other bit turned over.
+fn a_law(code: u8) -> i16 {
+    let code = code ^ 0x55;
+    let (power, within) = ((code >> 4) & 7, i16::from(code & 15) << 4);
+    let size = match power {
+        // The two lowest stretches have steps of one size.
+        0 => within + 0x008,
+        _ => (within + 0x108) << (power - 1),
+    };
+    if code & 0x80 == 0 { -size } else { size }
+}
+
+/// A sample of ITU-T G.711 µ-law as one of 16 bits: as A-law, with every bit turned over and 132 added before the
+/// power was taken.
+fn mu_law(code: u8) -> i16 {
+    let code = !code;
+    let size = (((i16::from(code & 15) << 3) + 132) << ((code >> 4) & 7)) - 132;
+    if code & 0x80 == 0 { size } else { -size }
 }
 
 /// Interleaved samples, and the channels that are wanted of them.
@@ -78,6 +103,19 @@ impl Frames<'_> {
                 }
             }
         }
+    }
+
+    /// As [`spread`](Self::spread) for floats; gives how many were not finite.
+    fn spread_finite<const N: usize>(
+        &self,
+        out: &mut [Vec<f32>],
+        sample: impl Fn(&[u8; N]) -> f32,
+    ) -> usize {
+        let known: Vec<usize> = out.iter().map(Vec::len).collect();
+        self.spread(out, sample);
+        let new = out.iter_mut().zip(known);
+        new.map(|(out, known)| zero_what_is_not_finite(&mut out[known..]))
+            .sum()
     }
 }
 
@@ -124,6 +162,12 @@ mod tests {
             (SampleKind::Signed, 3, &[0, 0, 0x40], 0.5),
             (SampleKind::Signed, 4, &[0, 0, 0, 0xC0], -0.5),
             (SampleKind::Float32, 4, &[0, 0, 0x80, 0x3E], 0.25),
+            (
+                SampleKind::Float64,
+                8,
+                &[0, 0, 0, 0, 0, 0, 0xD0, 0x3F],
+                0.25,
+            ),
         ] {
             assert_eq!(
                 decoded(kind, width, 1, bytes),
@@ -131,6 +175,41 @@ mod tests {
                 "{kind:?} {width}"
             );
         }
+    }
+
+    /// Values of the tables of G.711: the largest, the smallest and what is between them.
+    #[test]
+    fn companded_samples_are_those_of_the_standard() {
+        for (code, value) in [
+            (0xD5, 8),
+            (0x55, -8),
+            (0xAA, 32_256),
+            (0x2A, -32_256),
+            (0xC5, 264),
+            (0x80, 5_504),
+        ] {
+            assert_eq!(a_law(code), value, "A-law {code:#x}");
+        }
+        for (code, value) in [
+            (0xFF, 0),
+            (0x7F, 0),
+            (0x80, 32_124),
+            (0x00, -32_124),
+            (0xEF, 132),
+            (0x8F, 16_764),
+        ] {
+            assert_eq!(mu_law(code), value, "µ-law {code:#x}");
+        }
+        let of = |law: fn(u8) -> i16| (0..=255_u8).map(move |c| f32::from(law(c)) / 32_768.0);
+        let codes: Vec<u8> = (0..=255).collect();
+        assert_eq!(
+            decoded(SampleKind::ALaw, 1, 1, &codes)[0],
+            of(a_law).collect::<Vec<_>>()
+        );
+        assert_eq!(
+            decoded(SampleKind::MuLaw, 1, 1, &codes)[0],
+            of(mu_law).collect::<Vec<_>>()
+        );
     }
 
     #[test]

@@ -5,6 +5,7 @@
 
 pub mod container;
 mod decode;
+mod format;
 pub mod stream;
 
 use std::io::Read;

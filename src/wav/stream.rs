@@ -106,8 +106,8 @@ impl<R: Read> Stream<R> {
     /// What is known after the last block.
     ///
     /// # Errors
-    /// [`Error::Wav`] if there was no audio.
-    pub fn finish(self) -> Result<Ending, Error> {
+    /// [`Error::Wav`] if there was no audio; [`Error::Io`] if reading what follows it fails.
+    pub fn finish(mut self) -> Result<Ending, Error> {
         if self.frames == 0 {
             return Err(wav("it holds no audio"));
         }
@@ -115,15 +115,20 @@ impl<R: Read> Stream<R> {
         warnings.extend(self.length_warning());
         if self.torn_bytes > 0 {
             warnings.push(format!(
-                "{} bytes after the last whole frame were left out",
-                self.torn_bytes
+                "what follows the last whole frame was left out: {} of {} bytes",
+                self.torn_bytes,
+                self.container.frame_bytes()
             ));
         }
         if self.not_finite > 0 {
             warnings.push(format!(
-                "{} samples are not finite numbers and were read as zero",
+                "samples that are not finite numbers were read as zero: {}",
                 self.not_finite
             ));
+        }
+        if self.left == 0 && self.container.more_follow(&mut self.source)? {
+            let message = "samples follow in a second chunk of them; only the first was read";
+            warnings.push(message.to_owned());
         }
         let frames = usize::try_from(self.frames).map_or(f64::INFINITY, real);
         Ok(Ending {
@@ -139,7 +144,7 @@ impl<R: Read> Stream<R> {
         };
         let missing = (claimed / self.container.frame_bytes() as u64).saturating_sub(self.frames);
         (missing > 0).then(|| {
-            format!("the file ends {missing} frames before its header says; the rest was read")
+            format!("the file ends before its header says, by {missing} frames; the rest was read")
         })
     }
 }

@@ -27,6 +27,9 @@ const HELD_BYTES: usize = 20 << 20;
 /// But so much is held of any recording, in seconds: a drop has to fit. Only above 600,000 samples a second over all
 /// channels is that more than [`HELD_BYTES`].
 const LEAST_HELD_S: f64 = 8.0;
+/// So many samples a second over all channels are listened to at most, such as 32 channels at 48 kHz or two at 768: with
+/// [`LEAST_HELD_S`] of them and the working memory of the analysis it stays below 256 MiB. A header may claim 4 GHz.
+const MOST_SAMPLES_PER_S: f64 = 1_536_000.0;
 
 /// Listens to all channels of a recording, block after block.
 ///
@@ -75,11 +78,18 @@ impl Listener {
     /// A listener to this many channels.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a setting out of range, no channels, or a rate too low to listen at.
+    /// [`Error::Argument`] for a setting out of range, no channels, a rate too low to listen at, or more samples a
+    /// second than fit the memory.
     pub fn new(channels: usize, sample_rate_hz: f64, settings: &Settings) -> Result<Self, Error> {
         settings.check()?;
         if channels == 0 {
             return Err(Error::argument("channels", 0.0, "at least one"));
+        }
+        let together = sample_rate_hz * real(channels);
+        if together > MOST_SAMPLES_PER_S {
+            let expected = "1536000 Hz or less: listen to one with --channel, or resample it";
+            let all = "sample rate of all channels together";
+            return Err(Error::argument(all, together, expected));
         }
         let detector = Detector::new(sample_rate_hz, &settings.detect)?;
         let frames = |time_s: f64| samples_in(time_s, sample_rate_hz);
@@ -156,9 +166,15 @@ impl Listener {
     /// What was heard, and the channel that most of it was heard on.
     ///
     /// # Errors
-    /// [`Error::Argument`] if the recording ended before the part that was to be listened to.
+    /// [`Error::Argument`] if nothing of the recording is in the part that was to be listened to.
     pub fn finish(mut self) -> Result<(usize, Analysis), Error> {
         let end = self.held_end();
+        if let Some(got) = self.settings.end_s
+            && self.listened.is_empty()
+        {
+            let expected = "after the start by a sample or more";
+            return Err(Error::argument("end", got, expected));
+        }
         if end <= self.listened.start {
             let got = self.settings.start_s.unwrap_or(0.0);
             return Err(Error::argument("start", got, "a time within the recording"));

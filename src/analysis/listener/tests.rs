@@ -185,3 +185,25 @@ fn channels_have_to_be_as_announced() {
     assert!(listener().push(&[[0.0_f32], [0.0]]).is_err());
     assert!(Listener::new(0, RATE_HZ, &Settings::default()).is_err());
 }
+
+#[test]
+fn more_than_fits_the_memory_is_refused_at_once() {
+    for (channels, rate_hz) in [(1, 4e9), (65_535, 44_100.0), (33, 48_000.0)] {
+        let error = Listener::new(channels, rate_hz, &Settings::default()).unwrap_err();
+        assert!(error.to_string().contains("--channel"), "{error}");
+    }
+    assert!(Listener::new(32, 48_000.0, &Settings::default()).is_ok());
+}
+
+#[test]
+fn a_part_without_a_sample_is_named_by_its_end() {
+    let settings = Settings {
+        start_s: Some(0.5),
+        end_s: Some(0.5 + 1e-9),
+        ..Settings::default()
+    };
+    let mut listener = Listener::new(1, RATE_HZ, &settings).unwrap();
+    listener.push(&[vec![0.1; 44_100]]).unwrap();
+    let error = listener.finish().unwrap_err().to_string();
+    assert!(error.starts_with("end is 0.5"), "{error}");
+}

@@ -1,0 +1,296 @@
+//! What is fuzzed: how an input is read, and what has to hold of the result.
+
+use std::fs;
+use std::path::Path;
+
+use bounce_audio::Error;
+use bounce_audio::analysis::{Listener, Settings};
+use bounce_audio::detect::refine::Timing;
+use bounce_audio::fit::ladder::Choice;
+use bounce_audio::random::SplitMix64;
+use bounce_audio::report::{RecordingInfo, Report, SCHEMA_VERSION, SettingsInfo, csv, json, text};
+use bounce_audio::synth::presets::preset;
+use bounce_audio::synth::render;
+use bounce_audio::synth::scene::Scene;
+use bounce_audio::units::{Quantity, real};
+use bounce_audio::wav::{self, Stream};
+
+use super::mutate::one_of;
+
+/// Something that reads what others wrote.
+pub(crate) struct Target {
+    /// Its name.
+    pub(crate) name: &'static str,
+    /// Valid input, to be mutated.
+    pub(crate) valid: fn() -> Vec<Vec<u8>>,
+    /// Words that are put into it.
+    pub(crate) words: &'static [&'static str],
+    /// Reads an input and checks what came of it; random numbers make what else it needs.
+    pub(crate) run: fn(&[u8], &mut SplitMix64),
+}
+
+/// The walk over the chunks and all decoders.
+pub(crate) fn walk() -> Target {
+    Target {
+        name: "walk",
+        valid: variants,
+        words: &["data", "fmt ", "LIST", "ds64", "RF64", "RIFF", "WAVE"],
+        run: |input, _| {
+            let Ok(recording) = wav::read(input) else {
+                return;
+            };
+            let samples: usize = recording.channels.iter().map(Vec::len).sum();
+            assert!(samples > 0 && samples <= input.len());
+            let all = recording.channels.iter().flatten();
+            assert!(all.copied().all(f32::is_finite));
+        },
+    }
+}
+
+/// Numbers with units.
+pub(crate) fn units() -> Target {
+    Target {
+        name: "units",
+        valid: || {
+            [
+                "30.5cm", "12in", "0.3 m", "2.5g", "1e-3kg", "250µs", "2min", "9.81m/s2",
+            ]
+            .map(|text| text.as_bytes().to_vec())
+            .to_vec()
+        },
+        words: &[
+            "e400", "-", "nan", "inf", "µ", "m/s²", " ", ".", "1e308", "km", "\u{2028}",
+        ],
+        run: |input, random| {
+            let quantities = [
+                Quantity::Length,
+                Quantity::Mass,
+                Quantity::Time,
+                Quantity::Acceleration,
+            ];
+            let text = String::from_utf8_lossy(input);
+            match one_of(random, &quantities).parse("it", &text) {
+                Ok(value) => assert!(value.is_finite()),
+                Err(error) => assert!(error.to_string().starts_with("it is '")),
+            }
+        },
+    }
+}
+
+/// The longest scene that is rendered, in samples.
+const MOST_RENDERED: f64 = 20_000.0;
+
+/// Scenes as text, and short ones rendered.
+pub(crate) fn scene() -> Target {
+    Target {
+        name: "scene",
+        valid: scenes,
+        words: &[
+            "1e300",
+            "-1",
+            "nan",
+            "inf",
+            "[[drops]]\n",
+            "[noise]\n",
+            "= ",
+            "0",
+            "1e-300",
+            "99999999999",
+            "\"",
+            "#",
+            "\n",
+        ],
+        run: |input, random| {
+            let Ok(scene) = Scene::from_toml(&String::from_utf8_lossy(input)) else {
+                return;
+            };
+            if scene.duration_s * f64::from(scene.sample_rate_hz) > MOST_RENDERED {
+                return;
+            }
+            if let Ok(made) = render(&scene, random.next_u64()) {
+                assert!(made.samples.iter().all(|x| x.is_finite()));
+            }
+        },
+    }
+}
+
+/// The whole way from a file to its documents.
+pub(crate) fn analyze() -> Target {
+    Target {
+        name: "analyze",
+        valid: recordings,
+        words: &[],
+        run: |input, random| {
+            let settings = settings(random);
+            if let Ok(report) = listen(input, &settings) {
+                check(&report);
+            }
+        },
+    }
+}
+
+fn variants() -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/wav-variants");
+    let files = fs::read_dir(folder).unwrap().map(|f| f.unwrap().path());
+    let mut files: Vec<_> = files
+        .filter(|f| f.extension().is_some_and(|e| e == "wav"))
+        .collect();
+    files.sort();
+    // Most of a file are samples of one sine: a few of them are as good.
+    let few = files.into_iter().map(|file| {
+        let mut bytes = fs::read(file).unwrap();
+        bytes.truncate(1_500);
+        bytes
+    });
+    few.collect()
+}
+
+/// The presets, and each again so short that it is rendered.
+fn scenes() -> Vec<Vec<u8>> {
+    let names = bounce_audio::synth::presets::names();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes");
+    let texts = names.map(|name| fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap());
+    let all = texts.flat_map(|text| {
+        let short = text.lines().map(|line| match line.split(' ').next() {
+            Some("duration_s") => "duration_s = 0.2",
+            Some("sample_rate_hz") => "sample_rate_hz = 44100",
+            Some("first_impact_s") => "first_impact_s = 0.05",
+            _ => line,
+        });
+        let short = short.collect::<Vec<_>>().join("\n");
+        [text.into_bytes(), short.into_bytes()]
+    });
+    all.collect()
+}
+
+/// Short recordings of drops: clicks, a steel ball, both on two channels, floats.
+fn recordings() -> Vec<Vec<u8>> {
+    let mut clicks = vec![0.0_f32; 16_000];
+    let (mut at_s, mut flight_s) = (0.1, 0.4);
+    while flight_s > 0.01 {
+        let at = bounce_audio::units::samples_in(at_s, 8_000.0);
+        clicks[at..at + 4].copy_from_slice(&[0.5, -0.3, 0.2, -0.1]);
+        at_s += flight_s;
+        flight_s *= 0.78;
+    }
+    let steel = render(&preset("steel").unwrap(), 1).unwrap().samples;
+    let steel = &steel[25_000..25_000 + 60_000];
+    let slow: Vec<f32> = steel.iter().step_by(4).copied().collect();
+    let both: Vec<f32> = clicks
+        .iter()
+        .zip(&slow)
+        .flat_map(|(a, b)| [*a, *b])
+        .collect();
+    vec![
+        pcm16(1, 8_000, &clicks),
+        pcm16(1, 44_100, steel),
+        pcm16(2, 11_025, &both),
+        pcm16(1, 11_025, &slow),
+    ]
+}
+
+fn pcm16(channels: u16, sample_rate: u32, samples: &[f32]) -> Vec<u8> {
+    let mut file = std::io::Cursor::new(Vec::new());
+    let spec = hound::WavSpec {
+        channels,
+        sample_rate,
+        bits_per_sample: 16,
+        sample_format: hound::SampleFormat::Int,
+    };
+    let mut writer = hound::WavWriter::new(&mut file, spec).unwrap();
+    for x in samples {
+        #[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
+        writer.write_sample((x * 32_767.0) as i16).unwrap();
+    }
+    writer.finalize().unwrap();
+    file.into_inner()
+}
+
+/// Settings that mostly are in range.
+fn settings(random: &mut SplitMix64) -> Settings {
+    let mut settings = Settings::default();
+    let mut maybe = |low: f64, high: f64| {
+        let value = low * (high / low).powf(random.uniform());
+        (random.uniform() < 0.3).then_some(value)
+    };
+    settings.height_m = maybe(1e-6, 1e4);
+    settings.mass_kg = maybe(1e-9, 1e6);
+    settings.diameter_m = maybe(1e-6, 1e3);
+    settings.contact_time_s = maybe(1e-9, 1.0);
+    settings.start_s = maybe(1e-6, 2.0);
+    settings.end_s = maybe(1e-3, 10.0);
+    settings.gravity_m_per_s2 = maybe(1e-3, 1e6).unwrap_or(9.81);
+    settings.height_std_m = maybe(1e-9, 1e4).unwrap_or(0.0);
+    settings.timing = *one_of(
+        random,
+        &[Timing::Envelope, Timing::Fraction, Timing::Correlation],
+    );
+    settings.model = *one_of(
+        random,
+        &[
+            Choice::Auto,
+            Choice::Constant,
+            Choice::Contact,
+            Choice::Linear,
+            Choice::Drag,
+            Choice::Speed,
+        ],
+    );
+    settings
+}
+
+fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
+    let mut stream = Stream::open(input)?;
+    let container = stream.container().clone();
+    let all = 0..usize::from(container.channels);
+    let sample_rate_hz = f64::from(container.sample_rate_hz);
+    let mut listener = Listener::new(all.len(), sample_rate_hz, settings)?;
+    while listener.push_with(|room| stream.append(&all, room))?? {}
+    let ending = stream.finish()?;
+    let (channel, analysis) = listener.finish()?;
+    Ok(Report {
+        schema_version: SCHEMA_VERSION,
+        file: "it".to_owned(),
+        recording: RecordingInfo {
+            sample_rate_hz,
+            channels: all.len(),
+            channel: channel + 1,
+            duration_s: ending.duration_s,
+            encoding: container.encoding(),
+        },
+        settings: SettingsInfo {
+            height_m: settings.height_m,
+            height_std_m: settings.height_std_m,
+            gravity_m_per_s2: settings.gravity_m_per_s2,
+            mass_kg: settings.mass_kg,
+            diameter_m: settings.diameter_m,
+            contact_time_s: settings.contact_time_s,
+            model: settings.model,
+            start_s: settings.start_s,
+            end_s: settings.end_s,
+            timing: settings.timing,
+        },
+        analysis,
+    })
+}
+
+/// All forms can be written, times are in order and in the recording, and what is given is a number.
+fn check(report: &Report) {
+    assert!(!text::to_text(report).contains("NaN"));
+    assert!(!csv::to_csv(report).contains("NaN"));
+    assert!(json::to_json(report).is_ok());
+    for drop in &report.analysis.drops {
+        let times: Vec<f64> = drop.impacts.iter().map(|i| i.time_s).collect();
+        assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
+        let within = -0.1..=report.recording.duration_s + 0.1;
+        assert!(times.iter().all(|t| within.contains(t)), "{times:?}");
+        assert!(drop.bounces > 0 && real(drop.bounces) <= real(times.len()));
+        if let Some(restitution) = &drop.restitution {
+            let estimate = &restitution.estimate;
+            assert!(
+                estimate.value.is_finite() && estimate.std_error.is_none_or(|s| s >= 0.0),
+                "{estimate:?}"
+            );
+        }
+    }
+}
