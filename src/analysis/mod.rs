@@ -72,7 +72,11 @@ impl Default for Settings {
 }
 
 impl Settings {
-    fn check(&self) -> Result<(), Error> {
+    /// Whether the settings mean something, whatever the recording.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for the first that is out of range.
+    pub fn check(&self) -> Result<(), Error> {
         let positive = |name, value: f64| {
             if value.is_finite() && value > 0.0 {
                 Ok(())

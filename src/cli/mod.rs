@@ -3,6 +3,7 @@
 mod analyze;
 mod evaluate;
 mod limit;
+mod listen;
 mod solve;
 mod synth;
 
