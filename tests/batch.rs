@@ -336,7 +336,7 @@ fn a_killed_run_is_resumed_to_the_same_bytes() {
                 clippy::cast_sign_loss,
                 reason = "a place in a file"
             )]
-            let moment = (rng.uniform() * whole.len() as f64) as u64;
+            let moment = (rng.uniform() * bounce_audio::units::real(whole.len())) as u64;
             let mut child = Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
                 .current_dir(&folder)
                 .args([&all[..], &["out"]].concat())

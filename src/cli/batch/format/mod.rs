@@ -192,7 +192,7 @@ impl Rows {
         if !self.heading_read {
             self.heading_read = true;
             self.back.end = end;
-            return (row == &COLUMNS[..]).then_some(());
+            return (*row == COLUMNS[..]).then_some(());
         }
         if row.len() != COLUMNS.len() {
             return None;
