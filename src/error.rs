@@ -50,6 +50,12 @@ pub enum Error {
         /// Why not.
         problem: String,
     },
+    /// Doing what was asked would lose something, or there is nothing to do it with.
+    #[error("{problem}")]
+    Refused {
+        /// Why, and what to do about it.
+        problem: String,
+    },
     /// Reading or writing failed.
     #[error(transparent)]
     Io(#[from] std::io::Error),
@@ -79,6 +85,13 @@ impl Error {
             argument,
             got: in_words(got),
             expected,
+        }
+    }
+
+    /// An [`Error::Refused`].
+    pub(crate) fn refused(problem: impl Into<String>) -> Self {
+        Self::Refused {
+            problem: problem.into(),
         }
     }
 

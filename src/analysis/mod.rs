@@ -74,8 +74,12 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Ranges reach far beyond any ball, and stay where no product of settings leaves those of the physics.
-    fn check(&self) -> Result<(), Error> {
+    /// Whether the settings mean something, whatever the recording. Ranges reach far beyond any ball, and stay where no
+    /// product of settings leaves those of the physics.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for the first that is out of range.
+    pub fn check(&self) -> Result<(), Error> {
         let within = |name, value: Option<f64>, range: RangeInclusive<f64>, expected| match value {
             Some(value) if !range.contains(&value) => Err(Error::argument(name, value, expected)),
             _ => Ok(()),

@@ -1,8 +1,10 @@
 //! The command line: parses, calls the library and says what to print. Files and standard input are touched here.
 
 mod analyze;
+mod batch;
 mod evaluate;
 mod limit;
+mod listen;
 mod solve;
 mod synth;
 
@@ -24,6 +26,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Analyze(analyze::Arguments),
+    Batch(batch::Arguments),
     Solve(solve::Arguments),
     Synth(synth::Arguments),
     Evaluate(evaluate::Arguments),
@@ -45,6 +48,7 @@ pub struct Outcome {
 pub fn run() -> Result<Outcome, Error> {
     match Arguments::parse().command {
         Command::Analyze(arguments) => analyze::run(&arguments),
+        Command::Batch(arguments) => batch::run(&arguments),
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Synth(arguments) => synth::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),

@@ -5,6 +5,7 @@
 
 mod banded;
 pub mod bounces;
+pub mod ensemble;
 pub mod flights;
 pub mod ladder;
 mod least_squares;
@@ -68,7 +69,12 @@ pub fn student_975(degrees_of_freedom: f64) -> f64 {
     if degrees_of_freedom > 1e6 {
         return NORMAL;
     }
-    StudentsT::new(0.0, 1.0, degrees_of_freedom).map_or(f64::INFINITY, |t| t.inverse_cdf(0.975))
+    student(0.975, degrees_of_freedom)
+}
+
+/// A quantile of Student's distribution.
+fn student(share: f64, degrees_of_freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, degrees_of_freedom).map_or(f64::INFINITY, |t| t.inverse_cdf(share))
 }
 
 #[cfg(test)]

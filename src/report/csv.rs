@@ -47,12 +47,12 @@ pub fn to_csv(report: &Report) -> String {
 }
 
 /// A number, or nothing.
-fn cell(number: Option<f64>) -> String {
+pub(super) fn cell(number: Option<f64>) -> String {
     number.map_or_else(String::new, |n| n.to_string())
 }
 
 /// A field as RFC 4180 wants it: in quotes where it holds a comma, a quote or a line break.
-fn quoted(field: &str) -> String {
+pub(super) fn quoted(field: &str) -> String {
     if field.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", field.replace('"', "\"\""))
     } else {

@@ -2,7 +2,9 @@
 //!
 //! Field names are those of the JSON document and a contract: more may be added, none renamed.
 
+pub mod batch;
 pub mod csv;
+pub mod drops;
 pub mod json;
 mod table;
 pub mod text;
@@ -31,6 +33,14 @@ pub struct Report {
     /// The drops, their rejects and the warnings.
     #[serde(flatten)]
     pub analysis: Analysis,
+}
+
+impl Report {
+    /// Why there is no drop, in a sentence.
+    fn why_none(&self) -> &str {
+        let reason = self.analysis.warnings.first();
+        reason.map_or("no drop found", |warning| &warning.message)
+    }
 }
 
 /// The recording as it was read.

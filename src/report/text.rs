@@ -193,14 +193,18 @@ fn with_error(estimate: &Estimate) -> String {
         return format!("{:.3} (no error: a single ratio)", estimate.value);
     };
     let digits = digits_for(std);
-    format!(
-        "{:.digits$} ± {std:.digits$} (95 %: {low:.digits$} to {high:.digits$})",
-        estimate.value
-    )
+    let value = plus_minus(estimate.value, std);
+    format!("{value} (95 %: {low:.digits$} to {high:.digits$})")
+}
+
+/// `0.9452 ± 0.0006`, to the digits that the error leaves.
+pub(super) fn plus_minus(value: f64, std: f64) -> String {
+    let digits = digits_for(std);
+    format!("{value:.digits$} ± {std:.digits$}")
 }
 
 /// Decimals that show an error with two digits, one at least.
-fn digits_for(std: f64) -> usize {
+pub(super) fn digits_for(std: f64) -> usize {
     table::decimals(std).max(1)
 }
 

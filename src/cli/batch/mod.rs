@@ -1,0 +1,208 @@
+//! `bounce-audio batch`: many recordings.
+
+mod format;
+mod inputs;
+mod job;
+mod options;
+mod ordered;
+mod progress;
+mod rows_file;
+
+use std::fs::File;
+use std::io::{self, ErrorKind, Write};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::thread;
+
+use clap::{Args, value_parser};
+
+use super::Outcome;
+use super::listen::Listening;
+use crate::Error;
+use crate::report::batch::{Digest, Found, summary};
+use format::{Format, ReadBack};
+use job::{Job, PerFile};
+use options::{Pattern, Table};
+use progress::Progress;
+use rows_file::{Resumed, RowsFile, partial};
+
+/// Analyze many recordings: files, and folders with all that is in them.
+///
+/// One row per drop, in the order of the files, which are those named and the WAV recordings of each folder by name. A
+/// file without a drop or with an error has one row with the reason. At the end, standard error says e of each file,
+/// their mean, whether they differ by more than their errors claim, and which are far from the rest.
+///
+/// Exit status: 0 a drop in every file, 1 some file failed or had none, 2 what was asked could not be done.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  bounce-audio batch recordings --height 30.5cm -o drops.csv
+  bounce-audio batch recordings --pattern 'ball-{height}-{n}.wav'
+  bounce-audio batch recordings --options balls.csv --format ndjson
+  bounce-audio batch recordings -o drops.csv --resume
+
+A table for --options has a line per file; what is empty is as for all:
+  file,height,mass,diameter
+  ball-1.wav,30.5cm,2.7g,40mm
+  tuesday/ball-1.wav,12in,,")]
+pub(super) struct Arguments {
+    /// WAV files, and folders that hold some
+    #[arg(required = true, value_name = "PATH")]
+    paths: Vec<PathBuf>,
+    /// How many recordings to listen to at once [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..))]
+    jobs: Option<u16>,
+    /// Form of the rows
+    #[arg(long, value_enum, default_value_t = Format::Csv)]
+    format: Format,
+    /// The file to write; until it is whole, rows are in OUT.partial
+    #[arg(short, long, value_name = "OUT")]
+    output: Option<PathBuf>,
+    /// Go on with what an interrupted run left in OUT.partial; inputs and options must be the same
+    #[arg(long, requires = "output")]
+    resume: bool,
+    /// Replace OUT if it is there, and without --resume what an interrupted run left
+    #[arg(long, requires = "output")]
+    force: bool,
+    /// Height, mass and diameter of each file, by its name or the end of its path
+    #[arg(long, value_name = "TABLE.csv")]
+    options: Option<PathBuf>,
+    /// Read {height}, {mass} and {diameter}, with units, from the names; any other word in braces stands for anything
+    #[arg(long, conflicts_with = "options")]
+    pattern: Option<Pattern>,
+    #[command(flatten)]
+    listening: Listening,
+}
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    arguments.listening.settings().check()?;
+    let job = Job {
+        per_file: per_file(arguments)?,
+        inputs: inputs::gather(&arguments.paths)?,
+        listening: &arguments.listening,
+        format: arguments.format,
+    };
+    if let Some(note) = job.unmatched() {
+        say(&note);
+    }
+    let (mut target, mut digests) = Target::open(arguments, &job)?;
+    let progress = Progress::new(job.inputs.len(), digests.len());
+    let done = ordered::in_order(
+        threads(arguments, &job),
+        digests.len()..job.inputs.len(),
+        |number| {
+            let done = job.done(number);
+            progress.one_more();
+            done
+        },
+        |done| {
+            let flow = progress.aside(|| target.add(&done.rows))?;
+            digests.push(done.digest);
+            Ok(flow)
+        },
+    );
+    progress.end();
+    done.and_then(|()| target.finish())?;
+    say(&summary(&digests));
+    let found = |d: &Digest| matches!(d.found, Found::Drops(_));
+    Ok(Outcome {
+        output: String::new(),
+        status: u8::from(!digests.iter().all(found)),
+    })
+}
+
+fn per_file(arguments: &Arguments) -> Result<PerFile, Error> {
+    Ok(match (&arguments.options, &arguments.pattern) {
+        (Some(path), _) => PerFile::Table(path.clone(), Table::read(path)?),
+        (None, Some(pattern)) => PerFile::Pattern(pattern.clone()),
+        (None, None) => PerFile::Same,
+    })
+}
+
+/// No more threads than there are recordings.
+fn threads(arguments: &Arguments, job: &Job<'_>) -> usize {
+    let cores = || thread::available_parallelism().map_or(1, usize::from);
+    let asked = arguments.jobs.map_or_else(cores, usize::from);
+    asked.min(job.inputs.len()).max(1)
+}
+
+/// Writes to standard error. A note that nobody can read is no reason to stop.
+fn say(text: &str) {
+    io::stderr().write_all(text.as_bytes()).ok();
+}
+
+/// Where the rows go.
+enum Target {
+    Output,
+    File(RowsFile),
+    /// A file that was finished before.
+    Finished,
+}
+
+impl Target {
+    /// Makes ready to write, and gives what is there already.
+    fn open(arguments: &Arguments, job: &Job<'_>) -> Result<(Self, Vec<Digest>), Error> {
+        let (force, format) = (arguments.force, arguments.format);
+        let Some(path) = &arguments.output else {
+            let mut output = Self::Output;
+            // If nobody reads, the first row says so again.
+            output.add(&format.header()).map(|_| ())?;
+            return Ok((output, Vec::new()));
+        };
+        for written in [path, &partial(path)] {
+            job.spare(written)?;
+        }
+        if !arguments.resume {
+            return Ok((
+                Self::File(RowsFile::create(path, force, format)?),
+                Vec::new(),
+            ));
+        }
+        match RowsFile::resume(path, force, format)? {
+            Resumed::Finished(file, back) => {
+                Ok((Self::Finished, finished(job, &file, back, path)?))
+            }
+            Resumed::Partial(mut rows, back) => {
+                let same = job.same_run(rows.partial(), &back);
+                same.map_err(|e| e.in_file(partial(path)))?;
+                rows.cut(back.end, format)?;
+                Ok((Self::File(rows), back.digests))
+            }
+        }
+    }
+
+    fn add(&mut self, rows: &str) -> Result<ControlFlow<()>, Error> {
+        match self {
+            Self::File(file) => file.add(rows)?,
+            Self::Finished => {}
+            Self::Output => {
+                let mut stdout = io::stdout().lock();
+                let written = stdout.write_all(rows.as_bytes());
+                match written.and_then(|()| stdout.flush()) {
+                    // Whoever closed the pipe (`| head`) has read enough.
+                    Err(e) if e.kind() == ErrorKind::BrokenPipe => {
+                        return Ok(ControlFlow::Break(()));
+                    }
+                    written => written?,
+                }
+            }
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn finish(self) -> Result<(), Error> {
+        match self {
+            Self::File(file) => file.finish(),
+            Self::Output | Self::Finished => Ok(()),
+        }
+    }
+}
+
+/// What was finished before, if it is of the same inputs and options.
+fn finished(job: &Job<'_>, file: &File, back: ReadBack, path: &Path) -> Result<Vec<Digest>, Error> {
+    job.same_run(file, &back).map_err(|e| e.in_file(path))?;
+    if back.digests.len() < job.inputs.len() {
+        let problem = "it is finished, but there are more inputs now: --force does them all again";
+        return Err(Error::refused(problem).in_file(path));
+    }
+    Ok(back.digests)
+}

@@ -1,0 +1,238 @@
+//! What `analyze` and `batch` share: how to listen, and one recording to its report.
+
+use std::io::Read;
+use std::ops::Range;
+use std::path::Path;
+
+use clap::{Args, ValueEnum};
+
+use super::{acceleration, length, mass, time};
+use crate::Error;
+use crate::analysis::{Listener, Settings};
+use crate::detect::refine::Timing;
+use crate::fit::ladder::Choice;
+use crate::report::{self, RecordingInfo, Report, SettingsInfo};
+use crate::wav::Stream;
+
+/// What is known beforehand and how to listen.
+#[derive(Debug, Clone, Args)]
+pub(super) struct Listening {
+    /// Height of release, from the ball's lowest point to the surface: 30.5cm, 12in, 0.305
+    #[arg(long, value_parser = length, allow_negative_numbers = true)]
+    pub height: Option<f64>,
+    /// Standard error of the height
+    #[arg(long, value_parser = length, default_value = "1mm", allow_negative_numbers = true)]
+    height_error: f64,
+    /// Mass of the ball: 2.5g, 0.6kg; with --diameter the drag of the air is known, with a contact time k and c
+    #[arg(long, value_parser = mass, allow_negative_numbers = true)]
+    pub mass: Option<f64>,
+    /// Diameter of the ball: 38mm
+    #[arg(long, value_parser = length, allow_negative_numbers = true)]
+    pub diameter: Option<f64>,
+    /// Time in contact at each impact, if known: 1ms
+    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    contact_time: Option<f64>,
+    /// Model of the intervals: constant e, and what is added to it
+    #[arg(long, value_enum, default_value_t = ModelChoice::Auto)]
+    model: ModelChoice,
+    /// Gravity in m/s²
+    #[arg(long, value_parser = acceleration, default_value = "9.81", allow_negative_numbers = true)]
+    gravity: f64,
+    /// Which channel to listen to: best (the one in which impacts stand out most) or its number from 1
+    #[arg(long, default_value = "best", value_name = "best|N")]
+    channel: Channel,
+    /// Listen from here: 2s, 1.5, 2min
+    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    start: Option<f64>,
+    /// Listen up to here
+    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    end: Option<f64>,
+    /// How impacts are timed, from fastest to most exact
+    #[arg(long, value_enum, default_value_t = TimingChoice::Auto)]
+    timing: TimingChoice,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Channel {
+    Best,
+    Number(usize),
+}
+
+impl Channel {
+    /// The indices of the channels that are listened to, of this many.
+    fn of(self, channels: usize) -> Result<Range<usize>, Error> {
+        match self {
+            Self::Best => Ok(0..channels),
+            Self::Number(number) if number <= channels => Ok(number - 1..number),
+            Self::Number(number) => Err(Error::Argument {
+                argument: "--channel",
+                got: number.to_string(),
+                expected: "a channel that the recording has",
+            }),
+        }
+    }
+}
+
+impl std::str::FromStr for Channel {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text.parse() {
+            _ if text == "best" => Ok(Self::Best),
+            Ok(number) if number > 0 => Ok(Self::Number(number)),
+            _ => Err("expected best or a number from 1".to_owned()),
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum TimingChoice {
+    /// The most exact that the recording allows
+    Auto,
+    /// The detector's grid, a quarter of a millisecond
+    Envelope,
+    /// A fixed fraction of each impact's rise
+    Fraction,
+    /// Correlation with the mean impact
+    Correlation,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ModelChoice {
+    /// As much as the recording supports
+    Auto,
+    /// Constant e
+    Constant,
+    /// The time in contact stands in every interval
+    Contact,
+    /// A linear ball with weight: slow impacts last longer and lose more
+    Linear,
+    /// The air slows the ball
+    Drag,
+    /// e is a power of the impact speed
+    Speed,
+}
+
+impl From<ModelChoice> for Choice {
+    fn from(choice: ModelChoice) -> Self {
+        match choice {
+            ModelChoice::Auto => Self::Auto,
+            ModelChoice::Constant => Self::Constant,
+            ModelChoice::Contact => Self::Contact,
+            ModelChoice::Linear => Self::Linear,
+            ModelChoice::Drag => Self::Drag,
+            ModelChoice::Speed => Self::Speed,
+        }
+    }
+}
+
+impl Listening {
+    /// Listens to a file.
+    pub(super) fn hear_file(&self, path: &Path) -> Result<Report, Error> {
+        let stream = Stream::open_file(path)?;
+        self.hear(stream, name(path)).map_err(|e| e.in_file(path))
+    }
+
+    /// Listens to a stream to its end.
+    pub(super) fn hear(
+        &self,
+        mut stream: Stream<impl Read>,
+        file: String,
+    ) -> Result<Report, Error> {
+        let settings = self.settings();
+        let channels = usize::from(stream.container().channels);
+        let heard = self.channel.of(channels)?;
+        let rate = f64::from(stream.container().sample_rate_hz);
+        let encoding = stream.container().encoding();
+        let mut listener = Listener::new(heard.len(), rate, &settings)?;
+        while listener.push_with(|room| stream.append(&heard, room))?? {}
+        // A file without audio is no WAV to listen to: that comes before what was not found in it.
+        let ending = stream.finish()?;
+        let (channel, mut analysis) = listener.finish()?;
+        for drop in &mut analysis.drops {
+            drop.channel += heard.start;
+        }
+        let repairs = ending.warnings.into_iter();
+        let repairs = repairs.map(|message| report::Warning::new("repaired", message));
+        analysis.warnings.extend(repairs);
+        Ok(Report {
+            schema_version: report::SCHEMA_VERSION,
+            file,
+            recording: RecordingInfo {
+                sample_rate_hz: rate,
+                channels,
+                channel: heard.start + channel + 1,
+                duration_s: ending.duration_s,
+                encoding,
+            },
+            settings: SettingsInfo {
+                height_m: settings.height_m,
+                height_std_m: settings.height_std_m,
+                gravity_m_per_s2: settings.gravity_m_per_s2,
+                mass_kg: settings.mass_kg,
+                diameter_m: settings.diameter_m,
+                contact_time_s: settings.contact_time_s,
+                model: settings.model,
+                start_s: settings.start_s,
+                end_s: settings.end_s,
+                timing: settings.timing,
+            },
+            analysis,
+        })
+    }
+
+    /// The settings of the library.
+    pub(super) fn settings(&self) -> Settings {
+        Settings {
+            height_m: self.height,
+            height_std_m: self.height_error,
+            gravity_m_per_s2: self.gravity,
+            mass_kg: self.mass,
+            diameter_m: self.diameter,
+            contact_time_s: self.contact_time,
+            model: self.model.into(),
+            start_s: self.start,
+            end_s: self.end,
+            timing: match self.timing {
+                TimingChoice::Envelope => Timing::Envelope,
+                TimingChoice::Fraction => Timing::Fraction,
+                TimingChoice::Auto | TimingChoice::Correlation => Timing::Correlation,
+            },
+            ..Settings::default()
+        }
+    }
+}
+
+/// The name of a file in a document: as it is, but for bytes that are no UTF-8, which are written as `\xFF`.
+///
+/// A replacement character would give two files one name.
+pub(super) fn name(path: &Path) -> String {
+    let mut name = String::new();
+    for chunk in path.as_os_str().as_encoded_bytes().utf8_chunks() {
+        name += chunk.valid();
+        for byte in chunk.invalid() {
+            name += &format!("\\x{byte:02X}");
+        }
+    }
+    name
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[cfg(unix)]
+    #[test]
+    fn names_that_are_no_text_stay_apart() {
+        use std::ffi::OsStr;
+        use std::os::unix::ffi::OsStrExt;
+        for (bytes, shown) in [
+            (&b"a b,\n.wav"[..], "a b,\n.wav"),
+            (b"h\xE9.wav", "h\\xE9.wav"),
+            (b"h\xE8.wav", "h\\xE8.wav"),
+            ("hé.wav".as_bytes(), "hé.wav"),
+        ] {
+            assert_eq!(name(Path::new(OsStr::from_bytes(bytes))), shown);
+        }
+    }
+}

@@ -1,0 +1,281 @@
+//! Many recordings in short: a line for each, and what they say together.
+
+use super::text::{digits_for, plus_minus};
+use super::wrap::wrapped;
+use super::{Drop, Report};
+use crate::fit::Estimate;
+use crate::fit::ensemble::{Ensemble, Measurement, Outlier, outliers};
+
+/// χ² as great as theirs by chance is rarer than this: they differ by more than they claim.
+const RARE: f64 = 0.01;
+
+/// One recording in short.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Digest {
+    /// Its name.
+    pub file: String,
+    /// What came of it.
+    pub found: Found,
+}
+
+/// What came of one recording.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Found {
+    /// Its drops; one at least.
+    Drops(Vec<DropDigest>),
+    /// It has no drop, with the reason.
+    Nothing(String),
+    /// It could not be analyzed, with the reason.
+    Failed(String),
+}
+
+/// One drop in short.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DropDigest {
+    /// Impacts heard.
+    pub bounces: usize,
+    /// e of the selected model.
+    pub restitution: Option<Estimate>,
+}
+
+impl From<&Drop> for DropDigest {
+    fn from(drop: &Drop) -> Self {
+        Self {
+            bounces: drop.bounces,
+            restitution: drop.restitution.as_ref().map(|r| r.estimate),
+        }
+    }
+}
+
+impl From<&Report> for Digest {
+    fn from(report: &Report) -> Self {
+        let drops = &report.analysis.drops;
+        Self {
+            file: report.file.clone(),
+            found: if drops.is_empty() {
+                Found::Nothing(report.why_none().to_owned())
+            } else {
+                Found::Drops(drops.iter().map(DropDigest::from).collect())
+            },
+        }
+    }
+}
+
+/// A line per drop, file by file, then what they say together: mean e, the spread between drops against that which they
+/// claim, and the outliers by name. See [`Ensemble`] and [`outliers`] for the formulas.
+#[must_use]
+pub fn summary(digests: &[Digest]) -> String {
+    let mut out = String::new();
+    let mut named: Vec<(String, Measurement)> = Vec::new();
+    for digest in digests {
+        let file = visible(&digest.file);
+        match &digest.found {
+            Found::Drops(drops) => {
+                for (i, drop) in drops.iter().enumerate() {
+                    let name = match drops.len() {
+                        1 => file.clone(),
+                        _ => format!("{file} drop {}", i + 1),
+                    };
+                    out += &format!("{name}: {}\n", one(drop));
+                    named.extend(measurement(drop).map(|m| (name, m)));
+                }
+            }
+            Found::Nothing(reason) => out += &format!("{file}: {}\n", visible(reason)),
+            Found::Failed(reason) => out += &format!("{file}: failed: {}\n", visible(reason)),
+        }
+    }
+    out + "\n" + &counts(digests) + &together(&named)
+}
+
+/// A name that stays in its line and leaves the terminal alone.
+fn visible(text: &str) -> String {
+    let escaped = |c: char| {
+        if c.is_control() {
+            c.escape_default().to_string()
+        } else {
+            c.into()
+        }
+    };
+    text.chars().map(escaped).collect()
+}
+
+fn one(drop: &DropDigest) -> String {
+    let bounces = match drop.bounces {
+        1 => "1 bounce".to_owned(),
+        n => format!("{n} bounces"),
+    };
+    match drop.restitution {
+        None => format!("e not determined, {bounces}"),
+        Some(Estimate {
+            value,
+            std_error: None,
+            ..
+        }) => {
+            format!("e {value:.3} (no error: a single ratio), {bounces}")
+        }
+        Some(Estimate {
+            value,
+            std_error: Some(std),
+            ..
+        }) => {
+            format!("e {}, {bounces}", plus_minus(value, std))
+        }
+    }
+}
+
+/// e with an error to weigh it by.
+fn measurement(drop: &DropDigest) -> Option<Measurement> {
+    let e = drop.restitution?;
+    let std = e.std_error.filter(|std| std.is_finite() && *std > 0.0)?;
+    Some((e.value, std))
+}
+
+fn counts(digests: &[Digest]) -> String {
+    let (mut drops, mut without, mut failed) = (0, 0, 0);
+    for digest in digests {
+        match &digest.found {
+            Found::Drops(found) => drops += found.len(),
+            Found::Nothing(_) => without += 1,
+            Found::Failed(_) => failed += 1,
+        }
+    }
+    let plural = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
+    let mut line = plural(digests.len(), "recording") + ", " + &plural(drops, "drop");
+    if without > 0 {
+        line += &format!("; without a drop: {without}");
+    }
+    if failed > 0 {
+        line += &format!("; failed: {failed}");
+    }
+    line + "\n"
+}
+
+/// What the drops say together, and without the outliers if there are any.
+fn together(named: &[(String, Measurement)]) -> String {
+    let measurements: Vec<Measurement> = named.iter().map(|(_, m)| *m).collect();
+    let Some(ensemble) = Ensemble::of(&measurements) else {
+        return String::new();
+    };
+    let mut out = described(&ensemble);
+    let far = outliers(&measurements);
+    for (i, Outlier { index, distance }) in far.iter().enumerate() {
+        let (name, (value, std)) = &named[*index];
+        let label = if i == 0 { "outliers" } else { "" };
+        out += &format!(
+            "  {label:<8} {name}: e {}, {:.1} standard deviations {} the median\n",
+            plus_minus(*value, *std),
+            distance.abs(),
+            if *distance > 0.0 { "above" } else { "below" }
+        );
+    }
+    let kept = measurements.iter().enumerate();
+    let kept: Vec<Measurement> = kept
+        .filter(|(i, _)| far.iter().all(|o| o.index != *i))
+        .map(|(_, m)| *m)
+        .collect();
+    match Ensemble::of(&kept) {
+        Some(rest) if !far.is_empty() => out + "Without them:\n" + &described(&rest),
+        _ => out,
+    }
+}
+
+fn described(ensemble: &Ensemble) -> String {
+    let judged = if ensemble.chance >= RARE {
+        "no more than they claim".to_owned()
+    } else {
+        let digits = digits_for(ensemble.between);
+        format!(
+            "more than they claim: ball, height, surface or what was heard makes them differ by {:.digits$} more \
+             (one standard deviation)",
+            ensemble.between
+        )
+    };
+    let digits = digits_for(ensemble.spread.min(ensemble.claimed));
+    let spread = format!(
+        "  spread   {:.digits$} between drops, where their errors claim {:.digits$}",
+        ensemble.spread, ensemble.claimed
+    );
+    let chance = match ensemble.chance {
+        rare if rare < 0.001 => "below 0.001".to_owned(),
+        chance => format!("{chance:.3}"),
+    };
+    let birge = format!(
+        "  Birge    {:.2} (χ² {:.1} for {} degrees of freedom, chance {chance}): the drops differ {judged}",
+        ensemble.birge,
+        ensemble.chi_square,
+        ensemble.count - 1,
+    );
+    format!(
+        "  mean e   {} of {} drops\n{}\n{}\n",
+        plus_minus(ensemble.mean, ensemble.mean_std),
+        ensemble.count,
+        wrapped(&spread, 11),
+        wrapped(&birge, 11)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn digest(file: &str, values: &[f64]) -> Digest {
+        let drop = |&value: &f64| DropDigest {
+            bounces: 9,
+            restitution: Some(Estimate {
+                value,
+                std_error: Some(0.001),
+                interval95: Some([value - 0.002, value + 0.002]),
+            }),
+        };
+        Digest {
+            file: file.to_owned(),
+            found: Found::Drops(values.iter().map(drop).collect()),
+        }
+    }
+
+    #[test]
+    fn a_batch_says_each_file_then_the_mean_and_who_is_far() {
+        let mut digests: Vec<Digest> = (0..8)
+            .map(|i| digest(&format!("{i}.wav"), &[0.9 + 0.0005 * f64::from(i % 3)]))
+            .collect();
+        digests.push(digest("two\n.wav", &[0.9, 0.95]));
+        digests.push(Digest {
+            file: "none.wav".to_owned(),
+            found: Found::Nothing("only 2 sharp sounds".to_owned()),
+        });
+        digests.push(Digest {
+            file: "bad.wav".to_owned(),
+            found: Found::Failed("it is empty".to_owned()),
+        });
+        let said = summary(&digests);
+        for part in [
+            "0.wav: e 0.9000 ± 0.0010, 9 bounces\n",
+            "two\\n.wav drop 2: e 0.9500 ± 0.0010, 9 bounces\n",
+            "none.wav: only 2 sharp sounds\n",
+            "bad.wav: failed: it is empty\n",
+            "11 recordings, 10 drops; without a drop: 1; failed: 1\n",
+            "more than they claim",
+            "outliers two\\n.wav drop 2: e 0.9500",
+            "Without them:\n  mean e   0.9004",
+            "no more than they claim",
+        ] {
+            assert!(said.contains(part), "{part} is missing in\n{said}");
+        }
+        assert!(said.lines().count() < 30 && !said.contains('\r'));
+    }
+
+    #[test]
+    fn drops_without_an_error_are_in_no_mean() {
+        let mut bare = digest("a.wav", &[0.9]);
+        let Found::Drops(drops) = &mut bare.found else {
+            panic!("made with a drop");
+        };
+        drops[0].restitution = Some(Estimate::bare(0.9));
+        let said = summary(&[bare.clone(), bare, digest("b.wav", &[0.8])]);
+        assert!(
+            said.contains("a.wav: e 0.900 (no error") && !said.contains("mean e"),
+            "{said}"
+        );
+        assert!(said.ends_with("3 recordings, 3 drops\n"), "{said}");
+    }
+}
