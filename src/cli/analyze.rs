@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use super::labels::{Given, LabelArguments};
 use super::{Outcome, acceleration, length, mass, time};
 use crate::Error;
-use crate::analysis::{Listener, Settings};
+use crate::analysis::{Listener, Settings, analyze_labelled};
 use crate::detect::refine::Timing;
 use crate::fit::ladder::Choice;
 use crate::report::{self, RecordingInfo, Report, SettingsInfo, csv, json, text};
@@ -22,6 +23,8 @@ use crate::wav::Stream;
   bounce-audio analyze drop.wav
   bounce-audio analyze drop.wav --height 30.5cm
   bounce-audio analyze drop.wav --start 2 --end 9 --format json
+  bounce-audio analyze drop.wav --labels drop.txt       (open both in Audacity, edit, export the labels)
+  bounce-audio analyze drop.wav --impacts drop.txt      (fit what was edited)
   sox drop.mp3 -t wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
     /// A WAV file, or - for standard input
@@ -62,6 +65,8 @@ pub(super) struct Arguments {
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    #[command(flatten)]
+    labels: LabelArguments,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -149,14 +154,16 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let labels = arguments.labels.given()?;
     let report = if arguments.file == Path::new("-") {
         let open = Stream::open(io::stdin().lock());
-        open.and_then(|stream| listen(arguments, stream))
+        open.and_then(|stream| listen(arguments, labels, stream))
             .map_err(|e| e.in_file("standard input"))?
     } else {
         let stream = Stream::open_file(&arguments.file)?;
-        listen(arguments, stream).map_err(|e| e.in_file(&arguments.file))?
+        listen(arguments, labels, stream).map_err(|e| e.in_file(&arguments.file))?
     };
+    arguments.labels.write(&report)?;
     let output = match arguments.format {
         Format::Text => text::to_text(&report),
         Format::Csv => csv::to_csv(&report),
@@ -168,18 +175,32 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     })
 }
 
-/// Listens to a stream to its end.
-fn listen(arguments: &Arguments, mut stream: Stream<impl Read>) -> Result<Report, Error> {
+/// Listens to a stream to its end, or fits the impacts of labels to it.
+fn listen(
+    arguments: &Arguments,
+    labels: Option<Given<'_>>,
+    mut stream: Stream<impl Read>,
+) -> Result<Report, Error> {
     let settings = settings(arguments);
     let channels = usize::from(stream.container().channels);
     let heard = arguments.channel.of(channels)?;
     let rate = f64::from(stream.container().sample_rate_hz);
     let encoding = stream.container().encoding();
-    let mut listener = Listener::new(heard.len(), rate, &settings)?;
-    while listener.push_with(|room| stream.append(&heard, room))?? {}
-    // A file without audio is no WAV to listen to: that comes before what was not found in it.
-    let ending = stream.finish()?;
-    let (channel, mut analysis) = listener.finish()?;
+    let (ending, (channel, mut analysis)) = match labels {
+        None => {
+            let mut listener = Listener::new(heard.len(), rate, &settings)?;
+            while listener.push_with(|room| stream.append(&heard, room))?? {}
+            // A file without audio is no WAV to listen to: that comes before what was not found in it.
+            (stream.finish()?, listener.finish()?)
+        }
+        Some((path, drops)) => {
+            let mut samples = vec![Vec::new(); heard.len()];
+            while stream.append(&heard, &mut samples)? {}
+            let ending = stream.finish()?;
+            let fitted = analyze_labelled(&samples, rate, &drops, &settings);
+            (ending, fitted.map_err(|e| e.in_file(path))?)
+        }
+    };
     for drop in &mut analysis.drops {
         drop.channel += heard.start;
     }

@@ -2,7 +2,9 @@
 
 mod analyze;
 mod evaluate;
+mod labels;
 mod limit;
+mod output;
 mod solve;
 mod synth;
 
