@@ -21,6 +21,7 @@ pub mod physics;
 pub mod plot;
 pub mod random;
 pub mod report;
+pub mod rules;
 pub mod sequence;
 pub mod solve;
 pub mod synth;

@@ -60,6 +60,7 @@ pub fn analyze_labelled<C: AsRef<[f32]>>(
             drops: fitted.into_iter().map(|m| m.until(end_s)).collect(),
             rejected: Vec::new(),
             rejected_weak: 0,
+            rule: None,
             warnings: Vec::new(),
         },
     ))

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::labels::{Given, LabelArguments};
+use super::rule::RuleArguments;
 use super::{Outcome, acceleration, length, mass, time};
 use crate::Error;
 use crate::analysis::{Listener, Settings, analyze_labelled};
@@ -25,6 +26,7 @@ use crate::wav::Stream;
   bounce-audio analyze drop.wav --start 2 --end 9 --format json
   bounce-audio analyze drop.wav --labels drop.txt       (open both in Audacity, edit, export the labels)
   bounce-audio analyze drop.wav --impacts drop.txt      (fit what was edited)
+  bounce-audio analyze drop.wav --rule ittf-ball
   sox drop.mp3 -t wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
     /// A WAV file, or - for standard input
@@ -67,6 +69,8 @@ pub(super) struct Arguments {
     format: Format,
     #[command(flatten)]
     labels: LabelArguments,
+    #[command(flatten)]
+    rule: RuleArguments,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -155,7 +159,7 @@ enum Format {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let labels = arguments.labels.given()?;
-    let report = if arguments.file == Path::new("-") {
+    let mut report = if arguments.file == Path::new("-") {
         let open = Stream::open(io::stdin().lock());
         open.and_then(|stream| listen(arguments, labels, stream))
             .map_err(|e| e.in_file("standard input"))?
@@ -163,6 +167,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         let stream = Stream::open_file(&arguments.file)?;
         listen(arguments, labels, stream).map_err(|e| e.in_file(&arguments.file))?
     };
+    arguments.rule.judge(&mut report)?;
     arguments.labels.write(&report)?;
     let output = match arguments.format {
         Format::Text => text::to_text(&report),
@@ -234,7 +239,7 @@ fn listen(
 }
 
 fn settings(arguments: &Arguments) -> Settings {
-    Settings {
+    let mut settings = Settings {
         height_m: arguments.height,
         height_std_m: arguments.height_error,
         gravity_m_per_s2: arguments.gravity,
@@ -250,5 +255,7 @@ fn settings(arguments: &Arguments) -> Settings {
             TimingChoice::Auto | TimingChoice::Correlation => Timing::Correlation,
         },
         ..Settings::default()
-    }
+    };
+    arguments.rule.complete(&mut settings);
+    settings
 }

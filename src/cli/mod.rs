@@ -5,6 +5,7 @@ mod evaluate;
 mod labels;
 mod limit;
 mod output;
+mod rule;
 mod solve;
 mod synth;
 

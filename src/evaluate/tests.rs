@@ -71,6 +71,7 @@ fn analysis(drops: Vec<Drop>) -> Analysis {
         drops,
         rejected: Vec::new(),
         rejected_weak: 0,
+        rule: None,
         warnings: Vec::new(),
     }
 }

@@ -5,6 +5,7 @@
 pub mod csv;
 pub mod json;
 pub mod labels;
+pub mod rule;
 mod table;
 pub mod text;
 mod wrap;
@@ -83,6 +84,8 @@ pub struct Analysis {
     pub rejected: Vec<Rejected>,
     /// How many weaker events were left out without being listed.
     pub rejected_weak: usize,
+    /// What a rule book says of it; null unless that was asked for.
+    pub rule: Option<rule::RuleReport>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
 }

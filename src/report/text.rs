@@ -1,6 +1,6 @@
 //! The report for a person: the answer first, then the impacts, then what to know.
 
-use super::{Ball, Drop, Impact, Model, Rejected, Report, Warning, table, wrap::wrapped};
+use super::{Ball, Drop, Impact, Model, Rejected, Report, Warning, rule, table, wrap::wrapped};
 use crate::fit::Estimate;
 use crate::fit::model::Budget;
 
@@ -18,17 +18,24 @@ pub fn to_text(report: &Report) -> String {
             _ => format!("{}: {count} drops", report.file),
         },
     );
+    let judged = |i| {
+        let judged = report.analysis.rule.as_ref();
+        judged.map_or_else(Vec::new, |judged| rule::entries(judged, i))
+    };
     for (i, drop) in drops.iter().enumerate() {
         if count > 1 {
             line(&mut out, &format!("\nDrop {}", i + 1));
         }
-        answer(&mut out, drop);
+        answer(&mut out, drop, &judged(i));
         table(&mut out, &drop.impacts);
         rejects(&mut out, &drop.rejected, "between the impacts");
         warnings(&mut out, &drop.warnings);
     }
     if count == 0 {
         rejects(&mut out, &report.analysis.rejected, "in the recording");
+    }
+    if let Some(spread) = rule::spread(report) {
+        line(&mut out, &format!("\n{}", wrapped(&spread, 2)));
     }
     warnings(&mut out, &report.analysis.warnings);
     out
@@ -44,7 +51,8 @@ fn entry(out: &mut String, text: &str) {
     line(out, &wrapped(text, 11));
 }
 
-fn answer(out: &mut String, drop: &Drop) {
+/// The answer; what a rule book says of it stands beside it.
+fn answer(out: &mut String, drop: &Drop, rule: &[String]) {
     line(out, "");
     match &drop.restitution {
         Some(r) => line(out, &format!("  e        {}", with_error(&r.estimate))),
@@ -67,6 +75,10 @@ fn answer(out: &mut String, drop: &Drop) {
     }
     if let Some(budget) = &drop.budget {
         entry(out, &format!("  error    {}", causes(budget)));
+    }
+    for (i, said) in rule.iter().enumerate() {
+        let head = if i == 0 { "rule" } else { "" };
+        entry(out, &format!("  {head:<9}{said}"));
     }
     let estimates = &drop.estimates;
     let others = [

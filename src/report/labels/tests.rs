@@ -34,6 +34,7 @@ fn two_drops() -> Analysis {
         drops: vec![drop(1.0), drop(11.0)],
         rejected: Vec::new(),
         rejected_weak: 0,
+        rule: None,
         warnings: Vec::new(),
     }
 }
