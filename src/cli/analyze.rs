@@ -13,6 +13,7 @@ use crate::Error;
 use crate::analysis::{Listener, Settings, analyze_labelled};
 use crate::detect::refine::Timing;
 use crate::fit::ladder::Choice;
+use crate::report::text::Detail;
 use crate::report::{self, RecordingInfo, Report, SettingsInfo, csv, json, text};
 use crate::wav::Stream;
 
@@ -67,6 +68,12 @@ pub(super) struct Arguments {
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Of the text only the answer and what to know about it: no table of impacts, nothing of what was rejected
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+    /// In the text every sound that was rejected, and the models that were compared
+    #[arg(short, long)]
+    verbose: bool,
     #[command(flatten)]
     labels: LabelArguments,
     #[command(flatten)]
@@ -87,8 +94,8 @@ impl Channel {
             Self::Number(number) if number <= channels => Ok(number - 1..number),
             Self::Number(number) => Err(Error::Argument {
                 argument: "--channel",
-                got: number.to_string(),
-                expected: "a channel that the recording has",
+                got: format!("{number} of a recording with {channels}"),
+                expected: "best or the number of a channel, from 1",
             }),
         }
     }
@@ -170,7 +177,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     arguments.rule.judge(&mut report)?;
     arguments.labels.write(&report)?;
     let output = match arguments.format {
-        Format::Text => text::to_text(&report),
+        Format::Text => text::to_text(&report, detail(arguments)),
         Format::Csv => csv::to_csv(&report),
         Format::Json => json::to_json(&report).map_err(io::Error::from)?,
     };
@@ -178,6 +185,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         output,
         status: u8::from(report.analysis.drops.is_empty()),
     })
+}
+
+const fn detail(arguments: &Arguments) -> Detail {
+    match (arguments.quiet, arguments.verbose) {
+        (true, _) => Detail::Answer,
+        (false, false) => Detail::Usual,
+        (false, true) => Detail::Everything,
+    }
 }
 
 /// Listens to a stream to its end, or fits the impacts of labels to it.

@@ -17,7 +17,7 @@ pub(super) type Given<'a> = (&'a Path, Vec<Vec<Marked>>);
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Labels")]
 pub(super) struct LabelArguments {
-    /// Write the impacts as labels: .txt for Audacity, .csv for Sonic Visualiser, .TextGrid for Praat
+    /// Write the impacts as labels, by the ending for Audacity (txt), Sonic Visualiser (csv) or Praat
     #[arg(long, value_name = "OUT.txt|csv|TextGrid")]
     labels: Option<PathBuf>,
     /// Fit exactly the impacts of a label file, as written by --labels and then edited, or set by hand

@@ -16,9 +16,8 @@ pub(super) fn read(text: &str) -> Result<Vec<Label>, Error> {
     let is_heading = |content: &str| content.to_ascii_lowercase().starts_with("time");
     let lines = text.lines().zip(1..);
     lines
-        .filter(|(content, line)| {
-            !content.trim().is_empty() && !(*line == 1 && is_heading(content))
-        })
+        .filter(|(content, _)| !content.trim().is_empty())
+        .filter(|(content, line)| *line > 1 || !is_heading(content))
         .map(|(content, line)| {
             let (time, text) = content.split_once(',').unwrap_or((content, ""));
             Ok(Label {
