@@ -181,7 +181,7 @@ fn what_cannot_be_used_is_said_in_one_line() {
         ),
         (
             file("few.txt", "1\t1\ta\n2\t2\tb\n"),
-            "found 2 impacts, each drop that labels make needs at least 3",
+            "line 1: the drop that begins here has 2 impacts that were heard",
         ),
         (file("empty.txt", "\n"), "there are no labels"),
         (

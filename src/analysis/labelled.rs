@@ -21,8 +21,8 @@ const SOUND_S: f64 = 4e-3;
 /// has no meaning here.
 ///
 /// # Errors
-/// [`Error::TooFewImpacts`] for a drop of which fewer than three impacts were heard, [`Error::Line`] for an impact after
-/// the recording's end, [`Error::Argument`] for a setting out of range or no channels.
+/// [`Error::Line`] for an impact after the recording's end and for a drop of which fewer than three impacts were heard,
+/// [`Error::Argument`] for a setting out of range or no channels.
 pub fn analyze_labelled<C: AsRef<[f32]>>(
     channels: &[C],
     sample_rate_hz: f64,
@@ -94,10 +94,12 @@ fn measured(
         rejected: Vec::new(),
     };
     if chain.heard() < FEWEST {
-        return Err(Error::TooFewImpacts {
-            found: chain.heard(),
-            needed: FEWEST,
-            purpose: "each drop that labels make",
+        return Err(Error::Line {
+            line: marked.first().map_or(1, |m| m.line),
+            problem: format!(
+                "the drop that begins here has {} impacts that were heard, a fit needs at least {FEWEST}",
+                chain.heard()
+            ),
         });
     }
     let timed = |m: &Marked| Timed {

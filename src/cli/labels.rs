@@ -42,7 +42,7 @@ impl LabelArguments {
         };
         let form = form(path, "--impacts")?;
         let marked = || {
-            let labels = read(&fs::read_to_string(path)?, form)?;
+            let labels = read(&fs::read(path)?, form)?;
             drops(&labels, form, self.label_error)
         };
         let marked = marked().map_err(|e| e.in_file(path))?;

@@ -82,18 +82,40 @@ pub fn to_labels(analysis: &Analysis, duration_s: f64, form: Form) -> String {
     }
 }
 
-/// Reads labels, in the order of the file.
+/// Reads labels, in the order of the file, which is UTF-8 or, with a byte order mark, UTF-16.
 ///
 /// # Errors
 /// [`Error::Line`] naming the line that is no label.
-pub fn read(text: &str, form: Form) -> Result<Vec<Label>, Error> {
-    // Editors of some systems put a byte order mark first.
-    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+pub fn read(bytes: &[u8], form: Form) -> Result<Vec<Label>, Error> {
+    let text = decoded(bytes).ok_or_else(|| Error::Line {
+        line: 1,
+        problem: "no text in UTF-8 or UTF-16: export the labels as text".to_owned(),
+    })?;
+    // Editors of some systems put a byte order mark first in UTF-8 too.
+    let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
     match form {
         Form::Audacity => audacity::read(text),
         Form::Instants => instants::read(text),
         Form::TextGrid => text_grid::read(text),
     }
+}
+
+/// The text of a file; Praat writes UTF-16 where a text is not all ASCII, and ± is not.
+fn decoded(bytes: &[u8]) -> Option<String> {
+    let (pairs, first_is_high) = match bytes {
+        [0xfe, 0xff, pairs @ ..] => (pairs, true),
+        [0xff, 0xfe, pairs @ ..] => (pairs, false),
+        _ => return String::from_utf8(bytes.to_vec()).ok(),
+    };
+    let units = pairs.chunks_exact(2).map(|pair| {
+        let pair = [pair[0], pair[1]];
+        if first_is_high {
+            u16::from_be_bytes(pair)
+        } else {
+            u16::from_le_bytes(pair)
+        }
+    });
+    char::decode_utf16(units).collect::<Result<_, _>>().ok()
 }
 
 /// A time as tools write it; where the system has a decimal comma, so have some.

@@ -40,7 +40,7 @@ fn two_drops() -> Analysis {
 }
 
 fn marked(text: &str, form: Form) -> Vec<Vec<Marked>> {
-    drops(&read(text, form).unwrap(), form, BY_HAND_S).unwrap()
+    drops(&read(text.as_bytes(), form).unwrap(), form, BY_HAND_S).unwrap()
 }
 
 #[test]
@@ -123,7 +123,7 @@ fn errors_name_the_line() {
             "'x' is no time",
         ),
     ] {
-        let result = read(text, form).and_then(|labels| drops(&labels, form, BY_HAND_S));
+        let result = read(text.as_bytes(), form).and_then(|labels| drops(&labels, form, BY_HAND_S));
         let error = result.unwrap_err().to_string();
         assert!(
             error.starts_with(&format!("line {line}: ")) && error.contains(words),
@@ -145,4 +145,18 @@ fn a_text_grid_has_the_lines_that_praat_reads() {
     ] {
         assert!(grid.lines().any(|l| l == line), "{line} in\n{grid}");
     }
+}
+
+#[test]
+fn praat_may_save_in_utf_16() {
+    let grid = to_labels(&two_drops(), 20.0, Form::TextGrid);
+    let units: Vec<u16> = std::iter::once(0xfeff).chain(grid.encode_utf16()).collect();
+    let big: Vec<u8> = units.iter().flat_map(|u| u.to_be_bytes()).collect();
+    let little: Vec<u8> = units.iter().flat_map(|u| u.to_le_bytes()).collect();
+    let plain = read(grid.as_bytes(), Form::TextGrid).unwrap();
+    for bytes in [big, little, format!("{}{grid}", '\u{feff}').into_bytes()] {
+        assert_eq!(read(&bytes, Form::TextGrid).unwrap(), plain);
+    }
+    let error = read(&[0x31, 0xff], Form::Audacity).unwrap_err().to_string();
+    assert!(error.contains("UTF-8"), "{error}");
 }
