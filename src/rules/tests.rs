@@ -92,7 +92,7 @@ fn the_air_takes_its_part_both_ways() {
         law.gravity_m_per_s2(),
         law.terminal_speed_m_per_s().unwrap(),
     );
-    // FACTS of flight with quadratic drag.
+    // Fall and rise with quadratic drag, in closed form.
     let v = vt * (1.0 - (-2.0 * g * 0.305 / vt.powi(2)).exp()).sqrt();
     let h = vt.powi(2) / (2.0 * g) * (1.0 + (0.93 * v / vt).powi(2)).ln();
     assert!((found.rebound_m.unwrap().value - h).abs() < 1e-12);
