@@ -44,6 +44,14 @@ pub enum Error {
         /// What they were needed for.
         purpose: &'static str,
     },
+    /// A line of a text is not what it should be.
+    #[error("line {line}: {problem}")]
+    Line {
+        /// The line, from 1.
+        line: usize,
+        /// What is wrong with it and what is expected.
+        problem: String,
+    },
     /// A picture could not be drawn.
     #[error("cannot draw: {problem}")]
     Plot {

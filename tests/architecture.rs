@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis, evaluate ← cli.
-const FORBIDDEN: [(&str, &[&str]); 12] = [
+const FORBIDDEN: [(&str, &[&str]); 13] = [
     (
         "physics",
         &[
@@ -37,7 +37,7 @@ const FORBIDDEN: [(&str, &[&str]); 12] = [
     (
         "report",
         &[
-            "physics", "sequence", "wav", "analysis", "synth", "evaluate", "cli",
+            "physics", "sequence", "wav", "analysis", "rules", "synth", "evaluate", "cli",
         ],
     ),
     (
@@ -47,7 +47,13 @@ const FORBIDDEN: [(&str, &[&str]); 12] = [
             "cli",
         ],
     ),
-    ("analysis", &["wav", "synth", "evaluate", "cli"]),
+    ("analysis", &["wav", "rules", "synth", "evaluate", "cli"]),
+    (
+        "rules",
+        &[
+            "detect", "sequence", "wav", "analysis", "solve", "synth", "evaluate", "cli",
+        ],
+    ),
     (
         "plot",
         &[
@@ -83,9 +89,9 @@ const FORBIDDEN: [(&str, &[&str]); 12] = [
 ];
 
 /// Folders that must build without a file system, threads or a terminal.
-const CORE: [&str; 10] = [
-    "physics", "detect", "sequence", "fit", "report", "analysis", "plot", "solve", "synth",
-    "evaluate",
+const CORE: [&str; 11] = [
+    "physics", "detect", "sequence", "fit", "report", "analysis", "rules", "plot", "solve",
+    "synth", "evaluate",
 ];
 const OUTSIDE: [&str; 6] = [
     "std::fs",

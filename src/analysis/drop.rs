@@ -47,21 +47,32 @@ pub(super) fn measure(
     settings: &Settings,
 ) -> Result<Measured, Error> {
     let timed = times(stretch, chain, settings);
-    let flights = Flights::between(&timed);
+    fit(stretch, chain, &timed, channel, settings)
+}
+
+/// Fits the impacts of a chain, which have these times.
+pub(super) fn fit(
+    stretch: &Stretch<'_>,
+    chain: &Chain,
+    timed: &[Timed],
+    channel: usize,
+    settings: &Settings,
+) -> Result<Measured, Error> {
+    let flights = Flights::between(timed);
     let ratio = flights.ratio();
-    let mut warnings = warnings::of_chain(stretch, &timed, chain);
-    warnings.extend(warnings::of_contact(settings.contact_time_s, &timed));
+    let mut warnings = warnings::of_chain(stretch, timed, chain);
+    warnings.extend(warnings::of_contact(settings.contact_time_s, timed));
     let (total, first_rebound) = match (ratio, settings.height_m) {
         (Some(ratio), Some(height_m)) => {
-            let height = by_height(&timed, &flights, ratio.value, height_m, settings)?;
+            let height = by_height(timed, &flights, ratio.value, height_m, settings)?;
             warnings.extend(height.warning);
             (height.total, height.first_rebound)
         }
         _ => (None, None),
     };
     let estimates = estimates(ratio, total, first_rebound);
-    let modelled = model::fitted(&timed, settings)?;
-    let agreement = Agreement::of(&timed, &flights, &estimates, &modelled, settings)?;
+    let modelled = model::fitted(timed, settings)?;
+    let agreement = Agreement::of(timed, &flights, &estimates, &modelled, settings)?;
     let corrections = modelled.corrections();
     warnings.extend(modelled.warnings);
     let gravity = settings.gravity_m_per_s2;
@@ -74,7 +85,7 @@ pub(super) fn measure(
         restitution: modelled.restitution,
         estimates,
         scatter: Scatter {
-            timing_std_s: median_std(&timed),
+            timing_std_s: median_std(timed),
             bounce_std: modelled.bounce_std,
         },
         model: modelled.model,
@@ -83,12 +94,12 @@ pub(super) fn measure(
         evidence_nats: chain.evidence,
         rejected: chain.rejected.iter().map(rejected).collect(),
         warnings,
-        impacts: impacts(stretch, chain, &timed, &flights, corrections, gravity),
+        impacts: impacts(stretch, chain, timed, &flights, corrections, gravity),
     };
     Ok(Measured {
         drop,
         agreement,
-        left_s: ratio.map(|r| total_time::left_s(&timed, &flights, r.value)),
+        left_s: ratio.map(|r| total_time::left_s(timed, &flights, r.value)),
     })
 }
 

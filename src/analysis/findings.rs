@@ -91,6 +91,7 @@ impl Findings {
             drops: self.drops.into_iter().map(|m| m.until(end_s)).collect(),
             rejected: self.rejected.into_iter().map(|(_, r)| r).collect(),
             rejected_weak: self.weak,
+            rule: None,
             warnings,
         };
         (channel, analysis)

@@ -6,12 +6,14 @@ mod agreement;
 mod bounce;
 mod drop;
 mod findings;
+mod labelled;
 mod listener;
 mod model;
 mod scene;
 mod tail;
 mod warnings;
 
+pub use labelled::analyze_labelled;
 pub use listener::Listener;
 
 use std::ops::RangeInclusive;

@@ -11,14 +11,13 @@ use crate::fit::flights::Impact;
 use crate::fit::ladder::{Climb, Inputs, climb};
 use crate::fit::model::{Budget, Parameter};
 use crate::physics::{
-    Air, ContactErrors, FlightLaw, Oscillator, ParameterErrors, Restitution as Ratio, Sphere,
+    Air, ContactErrors, DRAG_RELATIVE_STD, FlightLaw, Oscillator, ParameterErrors,
+    Restitution as Ratio, Sphere,
 };
 use crate::report::{Ball, Model, Restitution, Warning};
 
 /// A contact time whose interval spans this factor or more is not determined.
 const UNDETERMINED: f64 = 3.0;
-/// The drag coefficient of a sphere is known to 6 % (0.4 to 0.5), K with mass and diameter to a little more.
-const DRAG_ERROR: f64 = 0.07;
 /// A contact time that is given is taken to be right within 5 %, unless it is measured no one knows it better.
 const CONTACT_ERROR: f64 = 0.05;
 
@@ -26,7 +25,7 @@ const CONTACT_ERROR: f64 = 0.05;
 pub(super) fn inputs(settings: &Settings) -> Result<Inputs, Error> {
     let drag = law(settings)?.and_then(|law| {
         let rate = law.gravity_m_per_s2() / law.terminal_speed_m_per_s()?;
-        Some(known(rate * rate, DRAG_ERROR))
+        Some(known(rate * rate, DRAG_RELATIVE_STD))
     });
     Ok(Inputs {
         contact_s: settings.contact_time_s.map(|t| known(t, CONTACT_ERROR)),

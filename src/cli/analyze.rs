@@ -6,8 +6,11 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::Outcome;
-use super::listen::Listening;
+use super::labels::LabelArguments;
+use super::listen::{Hearing, Listening};
+use super::rule::RuleArguments;
 use crate::Error;
+use crate::report::text::Detail;
 use crate::report::{csv, json, text};
 use crate::wav::Stream;
 
@@ -19,6 +22,9 @@ use crate::wav::Stream;
   bounce-audio analyze drop.wav
   bounce-audio analyze drop.wav --height 30.5cm
   bounce-audio analyze drop.wav --start 2 --end 9 --format json
+  bounce-audio analyze drop.wav --labels drop.txt       (open both in Audacity, edit, export the labels)
+  bounce-audio analyze drop.wav --impacts drop.txt      (fit what was edited)
+  bounce-audio analyze drop.wav --rule ittf-ball
   sox drop.mp3 -t wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
     /// A WAV file, or - for standard input
@@ -28,6 +34,16 @@ pub(super) struct Arguments {
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Of the text only the answer and what to know about it: no table of impacts, nothing of what was rejected
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+    /// In the text every sound that was rejected, and the models that were compared
+    #[arg(short, long)]
+    verbose: bool,
+    #[command(flatten)]
+    labels: LabelArguments,
+    #[command(flatten)]
+    rule: RuleArguments,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -41,15 +57,21 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let report = if arguments.file == Path::new("-") {
+    let labels = arguments.labels.given()?;
+    let mut settings = arguments.listening.settings();
+    arguments.rule.complete(&mut settings);
+    let hear = Hearing { settings, labels };
+    let mut report = if arguments.file == Path::new("-") {
         let open = Stream::open(io::stdin().lock());
-        open.and_then(|stream| arguments.listening.hear(stream, "-".to_owned()))
+        open.and_then(|stream| arguments.listening.hear(stream, "-".to_owned(), &hear))
             .map_err(|e| e.in_file("standard input"))?
     } else {
-        arguments.listening.hear_file(&arguments.file)?
+        arguments.listening.hear_file(&arguments.file, &hear)?
     };
+    arguments.rule.judge(&mut report)?;
+    arguments.labels.write(&report)?;
     let output = match arguments.format {
-        Format::Text => text::to_text(&report),
+        Format::Text => text::to_text(&report, detail(arguments)),
         Format::Csv => csv::to_csv(&report),
         Format::Json => json::to_json(&report).map_err(io::Error::from)?,
     };
@@ -57,4 +79,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         output,
         status: u8::from(report.analysis.drops.is_empty()),
     })
+}
+
+const fn detail(arguments: &Arguments) -> Detail {
+    match (arguments.quiet, arguments.verbose) {
+        (true, _) => Detail::Answer,
+        (false, false) => Detail::Usual,
+        (false, true) => Detail::Everything,
+    }
 }

@@ -6,9 +6,10 @@ use std::path::Path;
 
 use clap::{Args, ValueEnum};
 
+use super::labels::Given;
 use super::{acceleration, length, mass, time};
 use crate::Error;
-use crate::analysis::{Listener, Settings};
+use crate::analysis::{Listener, Settings, analyze_labelled};
 use crate::detect::refine::Timing;
 use crate::fit::ladder::Choice;
 use crate::report::{self, RecordingInfo, Report, SettingsInfo};
@@ -52,6 +53,14 @@ pub(super) struct Listening {
     timing: TimingChoice,
 }
 
+/// How one recording is listened to: the settings of the library, and the labels whose impacts are fitted in place of
+/// those heard.
+#[derive(Debug)]
+pub(super) struct Hearing<'a> {
+    pub settings: Settings,
+    pub labels: Option<Given<'a>>,
+}
+
 #[derive(Debug, Clone, Copy)]
 enum Channel {
     Best,
@@ -66,8 +75,8 @@ impl Channel {
             Self::Number(number) if number <= channels => Ok(number - 1..number),
             Self::Number(number) => Err(Error::Argument {
                 argument: "--channel",
-                got: number.to_string(),
-                expected: "a channel that the recording has",
+                got: format!("{number} of a recording with {channels}"),
+                expected: "best or the number of a channel, from 1",
             }),
         }
     }
@@ -128,27 +137,38 @@ impl From<ModelChoice> for Choice {
 
 impl Listening {
     /// Listens to a file.
-    pub(super) fn hear_file(&self, path: &Path) -> Result<Report, Error> {
+    pub(super) fn hear_file(&self, path: &Path, hearing: &Hearing<'_>) -> Result<Report, Error> {
         let stream = Stream::open_file(path)?;
-        self.hear(stream, name(path)).map_err(|e| e.in_file(path))
+        self.hear(stream, name(path), hearing)
+            .map_err(|e| e.in_file(path))
     }
 
-    /// Listens to a stream to its end.
+    /// Listens to a stream to its end, or fits the impacts of labels to it.
     pub(super) fn hear(
         &self,
         mut stream: Stream<impl Read>,
         file: String,
+        Hearing { settings, labels }: &Hearing<'_>,
     ) -> Result<Report, Error> {
-        let settings = self.settings();
         let channels = usize::from(stream.container().channels);
         let heard = self.channel.of(channels)?;
         let rate = f64::from(stream.container().sample_rate_hz);
         let encoding = stream.container().encoding();
-        let mut listener = Listener::new(heard.len(), rate, &settings)?;
-        while listener.push_with(|room| stream.append(&heard, room))?? {}
-        // A file without audio is no WAV to listen to: that comes before what was not found in it.
-        let ending = stream.finish()?;
-        let (channel, mut analysis) = listener.finish()?;
+        let (ending, (channel, mut analysis)) = match labels {
+            None => {
+                let mut listener = Listener::new(heard.len(), rate, settings)?;
+                while listener.push_with(|room| stream.append(&heard, room))?? {}
+                // A file without audio is no WAV to listen to: that comes before what was not found in it.
+                (stream.finish()?, listener.finish()?)
+            }
+            Some((path, drops)) => {
+                let mut samples = vec![Vec::new(); heard.len()];
+                while stream.append(&heard, &mut samples)? {}
+                let ending = stream.finish()?;
+                let fitted = analyze_labelled(&samples, rate, drops, settings);
+                (ending, fitted.map_err(|e| e.in_file(path))?)
+            }
+        };
         for drop in &mut analysis.drops {
             drop.channel += heard.start;
         }

@@ -2,9 +2,13 @@
 
 mod analyze;
 mod batch;
+mod completions;
 mod evaluate;
+mod labels;
 mod limit;
 mod listen;
+mod output;
+mod rule;
 mod solve;
 mod synth;
 
@@ -17,7 +21,20 @@ use crate::units::Quantity;
 
 /// Listens to a recording of a ball bouncing and says when it hit, how often, and its coefficient of restitution.
 #[derive(Debug, Parser)]
-#[command(name = "bounce-audio", version, about, max_term_width = 100)]
+#[command(
+    name = "bounce-audio",
+    version,
+    about,
+    max_term_width = 100,
+    after_help = "Examples:
+  bounce-audio analyze drop.wav                       what a recording says of the ball
+  bounce-audio analyze drop.wav --height 30.5cm       the same, knowing from where it fell
+  bounce-audio synth --preset pingpong -o drop.wav    a recording to try it with
+  bounce-audio solve --bounces 70 --total-time 7.5s --height 30.5cm --mass 2.5g
+
+Results go to standard output, everything else to standard error. Help and errors have colours on a
+terminal only, and none where NO_COLOR is set."
+)]
 struct Arguments {
     #[command(subcommand)]
     command: Command,
@@ -30,6 +47,7 @@ enum Command {
     Solve(solve::Arguments),
     Synth(synth::Arguments),
     Evaluate(evaluate::Arguments),
+    Completions(completions::Arguments),
 }
 
 /// What a command leaves behind.
@@ -52,6 +70,7 @@ pub fn run() -> Result<Outcome, Error> {
         Command::Solve(arguments) => solve::run(&arguments),
         Command::Synth(arguments) => synth::run(&arguments),
         Command::Evaluate(arguments) => evaluate::run(&arguments),
+        Command::Completions(arguments) => completions::run(&arguments),
     }
 }
 

@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::Error;
+use crate::report::labels::read_audacity;
 
 /// What is true of a recording.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -69,26 +70,10 @@ impl Reference {
     /// all of one drop.
     ///
     /// # Errors
-    /// [`Error::Argument`] naming a line that is no label.
+    /// [`Error::Line`] naming a line that is no label.
     pub fn from_labels(text: &str) -> Result<Self, Error> {
-        let mut onsets_s = Vec::new();
-        // A line that starts with a backslash holds the frequencies of the label above it.
-        for line in text
-            .lines()
-            .filter(|l| !l.trim().is_empty() && !l.starts_with('\\'))
-        {
-            let start = line.split('\t').next().unwrap_or_default().trim();
-            // Where the system writes a decimal comma, so does Audacity.
-            let time: f64 = start
-                .replace(',', ".")
-                .parse()
-                .map_err(|_| Error::Argument {
-                    argument: "label",
-                    got: format!("'{line}'"),
-                    expected: "start TAB end TAB text, in seconds",
-                })?;
-            onsets_s.push(time);
-        }
+        let labels = read_audacity(text)?;
+        let mut onsets_s: Vec<f64> = labels.iter().map(|l| l.time_s).collect();
         onsets_s.sort_by(f64::total_cmp);
         let drop = ReferenceDrop {
             audible: vec![true; onsets_s.len()],

@@ -5,9 +5,7 @@ use super::rows::{Evaluation, Row, Tier};
 use super::scores::{FileScore, score};
 use super::thresholds::Thresholds;
 use crate::fit::Estimate;
-use crate::report::{
-    Analysis, Bounce, Drop, Estimates, Impact, Model, Restitution, Scatter, Status,
-};
+use crate::report::{Analysis, Bounce, Drop, Impact, Restitution, Status};
 
 const E: f64 = 0.9;
 const LIMIT_S: f64 = 1e-6;
@@ -55,8 +53,6 @@ fn drop_of(times_s: &[f64], e: f64, half_width: f64) -> Drop {
         channel: 1,
         impacts: times_s.iter().map(|&t| impact(t)).collect(),
         bounces: times_s.len(),
-        observed_time_s: 0.0,
-        total_time_s: None,
         restitution: Some(Restitution {
             estimate: Estimate {
                 value: e,
@@ -66,28 +62,7 @@ fn drop_of(times_s: &[f64], e: f64, half_width: f64) -> Drop {
             at_speed_m_per_s: Some(1.0),
             method: "test",
         }),
-        estimates: Estimates {
-            flight_ratio: None,
-            eq25: None,
-            eq30: None,
-            first_rebound: None,
-        },
-        scatter: Scatter {
-            timing_std_s: None,
-            bounce_std: None,
-        },
-        model: Model {
-            selected: "constant",
-            given: Vec::new(),
-            parameters: serde_json::Map::new(),
-            candidates: Vec::new(),
-            alike: None,
-        },
-        ball: None,
-        budget: None,
-        evidence_nats: 0.0,
-        rejected: Vec::new(),
-        warnings: Vec::new(),
+        ..Drop::empty()
     }
 }
 
@@ -96,6 +71,7 @@ fn analysis(drops: Vec<Drop>) -> Analysis {
         drops,
         rejected: Vec::new(),
         rejected_weak: 0,
+        rule: None,
         warnings: Vec::new(),
     }
 }

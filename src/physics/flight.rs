@@ -22,6 +22,10 @@ pub struct Air {
     pub drag_coefficient: f64,
 }
 
+/// Relative standard error of the drag of a ball whose mass and diameter are known: [`Air::drag_coefficient`] is known to
+/// 6 % (0.4 to 0.5), mass and diameter add a little.
+pub const DRAG_RELATIVE_STD: f64 = 0.07;
+
 impl Default for Air {
     fn default() -> Self {
         Self {

@@ -65,7 +65,8 @@ pub use bounces::BounceSeries;
 pub use contact::{Leaving, LinearContact, Rebound, ReleaseRule};
 pub use drop::{Bounce, DropSetup, Scatter};
 pub use flight::{
-    Air, Fall, FlightLaw, Hop, Rise, Sphere, displaced_mass_fraction, terminal_speed_m_per_s,
+    Air, DRAG_RELATIVE_STD, Fall, FlightLaw, Hop, Rise, Sphere, displaced_mass_fraction,
+    terminal_speed_m_per_s,
 };
 pub use impacts::{Impact, Impacts};
 pub use inverse::{Equation, InputErrors, Inversion};

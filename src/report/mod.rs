@@ -6,6 +6,8 @@ pub mod batch;
 pub mod csv;
 pub mod drops;
 pub mod json;
+pub mod labels;
+pub mod rule;
 mod table;
 pub mod text;
 mod wrap;
@@ -92,6 +94,8 @@ pub struct Analysis {
     pub rejected: Vec<Rejected>,
     /// How many weaker events were left out without being listed.
     pub rejected_weak: usize,
+    /// What a rule book says of it; null unless that was asked for.
+    pub rule: Option<rule::RuleReport>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
 }
@@ -121,12 +125,43 @@ pub struct Drop {
     pub ball: Option<Ball>,
     /// Where the error of e comes from, as shares that make 1; null where e has none.
     pub budget: Option<Budget>,
-    /// Evidence that this is a drop and no chance, in nats.
+    /// Evidence that this is a drop and no chance, in nats; infinite, null in JSON, where a person set the impacts.
     pub evidence_nats: f64,
     /// Strong events between the impacts that are none.
     pub rejected: Vec<Rejected>,
     /// What the user should know about this drop.
     pub warnings: Vec<Warning>,
+}
+
+#[cfg(test)]
+impl Drop {
+    /// A drop of which nothing is known.
+    pub(crate) fn empty() -> Self {
+        Self {
+            channel: 1,
+            impacts: Vec::new(),
+            bounces: 0,
+            observed_time_s: 0.0,
+            total_time_s: None,
+            restitution: None,
+            estimates: Estimates {
+                flight_ratio: None,
+                eq25: None,
+                eq30: None,
+                first_rebound: None,
+            },
+            scatter: Scatter {
+                timing_std_s: None,
+                bounce_std: None,
+            },
+            model: Model::none(),
+            ball: None,
+            budget: None,
+            evidence_nats: 0.0,
+            rejected: Vec::new(),
+            warnings: Vec::new(),
+        }
+    }
 }
 
 /// Whether an impact was heard.

@@ -1,13 +1,26 @@
 //! The report for a person: the answer first, then the impacts, then what to know.
 
-use super::{Ball, Drop, Impact, Model, Rejected, Report, Warning, table, wrap::wrapped};
+use super::{
+    Ball, Drop, Estimates, Impact, Model, Rejected, Report, Warning, rule, table, wrap::wrapped,
+};
 use crate::fit::Estimate;
 use crate::fit::ladder::ALIKE;
 use crate::fit::model::Budget;
 
+/// How much is said.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detail {
+    /// The answer and the warnings.
+    Answer,
+    /// Beside them the ways to e, the impacts, and what was rejected, like by like.
+    Usual,
+    /// Beside them the models that were compared, and each sound that was rejected.
+    Everything,
+}
+
 /// Lines that answer first (e, n, total time), then a table of impacts, then what was rejected, then warnings.
 #[must_use]
-pub fn to_text(report: &Report) -> String {
+pub fn to_text(report: &Report, detail: Detail) -> String {
     let mut out = String::new();
     let drops = &report.analysis.drops;
     let count = drops.len();
@@ -19,17 +32,35 @@ pub fn to_text(report: &Report) -> String {
             _ => format!("{}: {count} drops", report.file),
         },
     );
+    let judged = |i| {
+        let judged = report.analysis.rule.as_ref();
+        judged.map_or_else(Vec::new, |judged| rule::entries(judged, i))
+    };
     for (i, drop) in drops.iter().enumerate() {
         if count > 1 {
             line(&mut out, &format!("\nDrop {}", i + 1));
         }
-        answer(&mut out, drop);
-        table(&mut out, &drop.impacts);
-        rejects(&mut out, &drop.rejected, "between the impacts");
+        answer(&mut out, drop, &judged(i));
+        if detail != Detail::Answer {
+            ways(&mut out, &drop.estimates);
+            table(&mut out, &drop.impacts);
+            if detail == Detail::Everything {
+                models(&mut out, &drop.model);
+            }
+            rejects(&mut out, &drop.rejected, "between the impacts", detail);
+        }
         warnings(&mut out, &drop.warnings);
     }
-    if count == 0 {
-        rejects(&mut out, &report.analysis.rejected, "in the recording");
+    if detail == Detail::Everything || detail == Detail::Usual && count == 0 {
+        let place = if count == 0 {
+            "in the recording"
+        } else {
+            "outside the drops"
+        };
+        rejects(&mut out, &report.analysis.rejected, place, detail);
+    }
+    if let Some(spread) = rule::spread(report) {
+        line(&mut out, &format!("\n{}", wrapped(&spread, 2)));
     }
     warnings(&mut out, &report.analysis.warnings);
     out
@@ -45,7 +76,8 @@ fn entry(out: &mut String, text: &str) {
     line(out, &wrapped(text, 11));
 }
 
-fn answer(out: &mut String, drop: &Drop) {
+/// The answer; what a rule book says of it stands beside it.
+fn answer(out: &mut String, drop: &Drop, rule: &[String]) {
     line(out, "");
     match &drop.restitution {
         Some(r) => line(out, &format!("  e        {}", with_error(&r.estimate))),
@@ -72,7 +104,14 @@ fn answer(out: &mut String, drop: &Drop) {
     if let Some(rivals) = rivals(&drop.model) {
         entry(out, &format!("  models   {rivals}"));
     }
-    let estimates = &drop.estimates;
+    for (i, said) in rule.iter().enumerate() {
+        let head = if i == 0 { "rule" } else { "" };
+        entry(out, &format!("  {head:<9}{said}"));
+    }
+}
+
+/// Plain formulas for e.
+fn ways(out: &mut String, estimates: &Estimates) {
     let others = [
         ("flight ratios", estimates.flight_ratio),
         ("equation (25)", estimates.eq25),
@@ -218,11 +257,40 @@ fn table(out: &mut String, impacts: &[Impact]) {
 /// How many rejected events are written out; the JSON document has them all.
 const SHOWN: usize = 8;
 
-fn rejects(out: &mut String, rejected: &[Rejected], place: &str) {
+/// The models that were compared, from the simplest up.
+fn models(out: &mut String, model: &Model) {
+    if model.candidates.is_empty() {
+        return;
+    }
+    line(
+        out,
+        "\nModels compared, by their evidence over the first in nats",
+    );
+    for candidate in &model.candidates {
+        line(
+            out,
+            &format!(
+                "  {:<14} {:>9.1}   e {:.5}",
+                candidate.model, candidate.gain_nats, candidate.restitution
+            ),
+        );
+    }
+}
+
+fn rejects(out: &mut String, rejected: &[Rejected], place: &str, detail: Detail) {
     if rejected.is_empty() {
         return;
     }
     line(out, &format!("\nRejected {place}: {}", rejected.len()));
+    if detail == Detail::Everything {
+        for r in rejected {
+            line(
+                out,
+                &wrapped(&format!("  {:.4} s: {}", r.time_s, r.detail), 4),
+            );
+        }
+        return;
+    }
     let mut kinds: Vec<(&str, usize, &Rejected)> = Vec::new();
     for r in rejected {
         match kinds.iter_mut().find(|(detail, ..)| *detail == r.detail) {

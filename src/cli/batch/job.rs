@@ -10,7 +10,7 @@ use super::format::{Format, ReadBack};
 use super::inputs::Input;
 use super::options::{Given, Pattern, Table};
 use crate::Error;
-use crate::cli::listen::{Listening, name};
+use crate::cli::listen::{Hearing, Listening, name};
 use crate::report::batch::{Digest, Found};
 
 /// What differs from file to file.
@@ -65,7 +65,12 @@ impl Job<'_> {
             PerFile::Table(_, table) => table.of(path).unwrap_or_default(),
             PerFile::Pattern(pattern) => pattern.of(path)?,
         };
-        let report = given.over(self.listening).hear_file(path)?;
+        let listening = given.over(self.listening);
+        let hearing = Hearing {
+            settings: listening.settings(),
+            labels: None,
+        };
+        let report = listening.hear_file(path, &hearing)?;
         Ok(Done {
             rows: self.format.rows(&report)?,
             digest: Digest::from(&report),

@@ -1,0 +1,138 @@
+//! Drops whose impacts a person set: they are fitted as they are.
+
+use super::drop::{Measured, fit};
+use super::{Settings, Stretch};
+use crate::Error;
+use crate::fit::flights::Impact as Timed;
+use crate::report::labels::Marked;
+use crate::report::{Analysis, Status, Warning};
+use crate::sequence::{Chain, Link};
+use crate::units::real;
+
+/// Impacts with a ratio of flights.
+const FEWEST: usize = 3;
+/// The sound of an impact, from its onset on, in seconds.
+const SOUND_S: f64 = 4e-3;
+
+/// Fits drops whose impacts are given, to the recording they are of: exactly those, nothing is searched for.
+///
+/// The samples only tell how loud the impacts are, and when the recording ends. Of several channels that is taken on
+/// which the impacts stand out most; its index is given. Where listening starts and ends, and how impacts are timed,
+/// has no meaning here.
+///
+/// # Errors
+/// [`Error::Line`] for an impact after the recording's end and for a drop of which fewer than three impacts were heard,
+/// [`Error::Argument`] for a setting out of range or no channels.
+pub fn analyze_labelled<C: AsRef<[f32]>>(
+    channels: &[C],
+    sample_rate_hz: f64,
+    drops: &[Vec<Marked>],
+    settings: &Settings,
+) -> Result<(usize, Analysis), Error> {
+    settings.check()?;
+    let stretches: Vec<Stretch<'_>> = channels
+        .iter()
+        .map(|samples| Stretch {
+            samples: samples.as_ref(),
+            sample_rate_hz,
+            start_s: 0.0,
+            listened_from_s: 0.0,
+            hop_s: settings.detect.hop_s,
+        })
+        .collect();
+    let by_loudness = |a: &usize, b: &usize| {
+        let loudness = |channel: &usize| standing_out(&stretches[*channel], drops);
+        loudness(a).total_cmp(&loudness(b))
+    };
+    let best = (0..stretches.len()).rev().max_by(by_loudness);
+    let Some(channel) = best else {
+        return Err(Error::argument("channels", 0.0, "at least one"));
+    };
+    let stretch = &stretches[channel];
+    let fitted = drops
+        .iter()
+        .map(|d| measured(stretch, d, channel, settings));
+    let fitted = fitted.collect::<Result<Vec<Measured>, Error>>()?;
+    let end_s = stretch.end_s();
+    Ok((
+        channel,
+        Analysis {
+            drops: fitted.into_iter().map(|m| m.until(end_s)).collect(),
+            rejected: Vec::new(),
+            rejected_weak: 0,
+            rule: None,
+            warnings: Vec::new(),
+        },
+    ))
+}
+
+fn measured(
+    stretch: &Stretch<'_>,
+    marked: &[Marked],
+    channel: usize,
+    settings: &Settings,
+) -> Result<Measured, Error> {
+    let end_s = stretch.end_s();
+    if let Some(late) = marked.iter().find(|m| m.time_s >= end_s) {
+        return Err(Error::Line {
+            line: late.line,
+            problem: format!(
+                "{} s is after the recording ends, at {end_s} s",
+                late.time_s
+            ),
+        });
+    }
+    let link = |(i, m): (usize, &Marked)| Link {
+        event: (m.status != Status::Inferred).then_some(i),
+        time_s: m.time_s,
+        gain: 0.0,
+        doubtful: m.status == Status::Doubtful,
+    };
+    let chain = Chain {
+        links: marked.iter().enumerate().map(link).collect(),
+        evidence: f64::INFINITY,
+        rejected: Vec::new(),
+    };
+    if chain.heard() < FEWEST {
+        return Err(Error::Line {
+            line: marked.first().map_or(1, |m| m.line),
+            problem: format!(
+                "the drop that begins here has {} impacts that were heard, a fit needs at least {FEWEST}",
+                chain.heard()
+            ),
+        });
+    }
+    let timed = |m: &Marked| Timed {
+        time_s: m.time_s,
+        std_s: m.std_s,
+        heard: m.status != Status::Inferred,
+    };
+    let timed: Vec<Timed> = marked.iter().map(timed).collect();
+    let mut measured = fit(stretch, &chain, &timed, channel, settings)?;
+    measured.drop.warnings.push(note(marked));
+    Ok(measured)
+}
+
+/// That a person had a say in this.
+fn note(marked: &[Marked]) -> Warning {
+    let by_hand = marked.iter().filter(|m| m.by_hand).count();
+    let message = format!(
+        "the impacts are those of the labels: {by_hand} of {} set or moved by hand",
+        marked.len()
+    );
+    Warning::new("impacts_given", message)
+}
+
+/// By how much the impacts are louder than the channel at large: the mean of ln(peak/rms).
+fn standing_out(stretch: &Stretch<'_>, drops: &[Vec<Marked>]) -> f64 {
+    let energy: f64 = stretch.samples.iter().map(|x| f64::from(x * x)).sum();
+    let rms = (energy / real(stretch.samples.len()).max(1.0)).sqrt();
+    let peak = |m: &Marked| {
+        let sound = stretch.between(m.time_s, m.time_s + SOUND_S);
+        sound.iter().map(|x| x.abs()).fold(0.0, f32::max)
+    };
+    let marked = drops.iter().flatten();
+    // A silent channel is the last choice; what is not there cannot make it infinite.
+    let ln = |m: &Marked| (f64::from(peak(m)).max(1e-9) / rms.max(1e-9)).ln();
+    marked.map(ln).sum()
+}

@@ -1,0 +1,179 @@
+//! What a rule book says of a ball, as data and in words.
+
+use serde::Serialize;
+
+use super::Report;
+use crate::fit::Estimate;
+
+/// A rule and what each drop says of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RuleReport {
+    /// Its name on the command line.
+    pub name: &'static str,
+    /// Where it stands.
+    pub source: &'static str,
+    /// From the ball's lowest point to the surface at release, in metres.
+    pub drop_height_m: f64,
+    /// The rebound that is allowed, to the ball's lowest point, in metres.
+    pub allowed_m: [f64; 2],
+    /// Mass of the ball in kg, as given or else the middle of what the rule allows.
+    pub mass_kg: f64,
+    /// Its diameter in metres, likewise.
+    pub diameter_m: f64,
+    /// What each drop says, in the order of the drops.
+    pub drops: Vec<Judged>,
+    /// The highest predicted rebound less the lowest, of two drops or more, in metres.
+    pub spread_m: Option<f64>,
+    /// How much the rule allows that to be, over as many drops as it asks for.
+    pub allowed_spread: Option<Spread>,
+}
+
+/// How far apart rebounds may be.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Spread {
+    /// The highest less the lowest, in metres.
+    pub greatest_m: f64,
+    /// Over so many drops.
+    pub drops: usize,
+}
+
+/// Whether a ball keeps to a rule.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Outcome {
+    /// The whole 95 % interval is allowed.
+    Pass,
+    /// None of it is.
+    Fail,
+    /// A part of it is, or there is no interval.
+    Undecided,
+}
+
+impl Outcome {
+    /// The word of the document.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::Pass => "pass",
+            Self::Fail => "fail",
+            Self::Undecided => "undecided",
+        }
+    }
+}
+
+/// What a drop says of a rule.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Judged {
+    /// Whether the ball keeps to it.
+    pub outcome: Outcome,
+    /// The mean rebound predicted for the rule's drop, in metres; null where e is not determined.
+    pub rebound_m: Option<Estimate>,
+    /// How much single rebounds scatter about that, in metres.
+    pub single_rebound_std_m: Option<f64>,
+    /// Speed at which the ball of the rule arrives.
+    pub impact_speed_m_per_s: f64,
+    /// e at that speed, under the selected model.
+    pub restitution: Option<f64>,
+    /// The slowest and fastest speed at which e was measured.
+    pub measured_speeds_m_per_s: Option<[f64; 2]>,
+    /// Whether the rule's speed lies outside those: e there is an extrapolation.
+    pub extrapolated: bool,
+    /// Of an undecided one, what would decide it.
+    pub would_decide: Option<String>,
+}
+
+/// What a drop says of the rule, one entry after another.
+pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
+    let Some(judged) = rule.drops.get(drop) else {
+        return Vec::new();
+    };
+    let unit = Unit::of(rule);
+    let outcome = judged.outcome.word();
+    let (height, allowed) = (
+        unit.shown(rule.drop_height_m, 0),
+        unit.range(rule.allowed_m),
+    );
+    let mut entries = vec![format!(
+        "{}: {outcome}; from {height}, {allowed} are allowed",
+        rule.name
+    )];
+    let rebound = judged.rebound_m.as_ref();
+    entries.extend(rebound.map(|r| format!("rebound predicted {}", unit.estimate(r))));
+    if let (Some(e), Some([slowest, fastest]), true) = (
+        judged.restitution,
+        judged.measured_speeds_m_per_s,
+        judged.extrapolated,
+    ) {
+        entries.push(format!(
+            "e there is {e:.4} at {:.2} m/s, extrapolated: it was measured from {slowest:.2} to {fastest:.2} m/s",
+            judged.impact_speed_m_per_s
+        ));
+    }
+    entries.extend(judged.would_decide.clone());
+    entries
+}
+
+/// What all drops together say of the rule.
+pub(super) fn spread(report: &Report) -> Option<String> {
+    let rule = report.analysis.rule.as_ref()?;
+    let (spread_m, allowed) = (rule.spread_m?, rule.allowed_spread?);
+    let unit = Unit::of(rule);
+    Some(format!(
+        "{}: the rebounds of {} drops differ by {}; by the rule those of {} drops by {} at most",
+        rule.name,
+        rule.drops.len(),
+        unit.shown(spread_m, 1),
+        allowed.drops,
+        unit.shown(allowed.greatest_m, 0)
+    ))
+}
+
+/// Millimetres for low drops, centimetres for high ones, as the rule books have it.
+#[derive(Debug, Clone, Copy)]
+struct Unit {
+    name: &'static str,
+    per_m: f64,
+}
+
+impl Unit {
+    fn of(rule: &RuleReport) -> Self {
+        if rule.drop_height_m < 1.0 {
+            Self {
+                name: "mm",
+                per_m: 1e3,
+            }
+        } else {
+            Self {
+                name: "cm",
+                per_m: 1e2,
+            }
+        }
+    }
+
+    fn shown(self, length_m: f64, decimals: usize) -> String {
+        format!("{:.decimals$} {}", self.per_m * length_m, self.name)
+    }
+
+    fn range(self, [low, high]: [f64; 2]) -> String {
+        format!(
+            "{:.0} to {:.0} {}",
+            self.per_m * low,
+            self.per_m * high,
+            self.name
+        )
+    }
+
+    fn estimate(self, rebound: &Estimate) -> String {
+        let Self { name, per_m } = self;
+        let value = per_m * rebound.value;
+        let (Some(std), Some(ends)) = (rebound.std_error, rebound.interval95) else {
+            return format!("{value:.0} {name} (no error: a single ratio)");
+        };
+        let digits = super::table::decimals(per_m * std);
+        let [low, high] = ends.map(|end| per_m * end);
+        format!(
+            "{value:.digits$} ± {:.digits$} {name} (95 %: {low:.digits$} to {high:.digits$})",
+            per_m * std
+        )
+    }
+}

@@ -1,0 +1,205 @@
+//! The rebound that a drop predicts for a rule, with its interval.
+
+use super::Rule;
+use super::decide::{Causes, would_decide};
+use crate::Error;
+use crate::fit::Estimate;
+use crate::physics::{Air, DRAG_RELATIVE_STD, FlightLaw, Oscillator, Restitution, Sphere};
+use crate::report::rule::{Judged, Outcome};
+use crate::report::{Drop, Model};
+use crate::units::real;
+
+/// Outside the speeds that were heard e may depend on speed as that of balls at large does, `e ∝ v^−p` with p of this
+/// size: by so much is ln e off for each unit of ln v.
+const EXPONENT_BEYOND: f64 = 0.05;
+/// Standard deviations of a normal distribution within which 95 % lie.
+const NORMAL95: f64 = 1.959_964;
+
+/// A rule's drop of a ball.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Test<'a> {
+    rule: &'a Rule,
+    gravity_m_per_s2: f64,
+    flight: FlightLaw,
+    /// The flight in air that drags more and less than it should, by one standard deviation.
+    off: [FlightLaw; 2],
+    /// Speed at the rule's impact.
+    speed: f64,
+}
+
+/// e at the speed of a rule.
+#[derive(Debug, Clone, Copy)]
+struct AtSpeed {
+    ln: f64,
+    /// What the way to that speed adds to the error of ln e.
+    std: f64,
+    extrapolated: bool,
+}
+
+impl<'a> Test<'a> {
+    pub(super) fn new(rule: &'a Rule, ball: Sphere, gravity_m_per_s2: f64) -> Result<Self, Error> {
+        let law = |factor: f64| {
+            let usual = Air::default();
+            let air = Air {
+                drag_coefficient: factor * usual.drag_coefficient,
+                ..usual
+            };
+            FlightLaw::in_air(gravity_m_per_s2, ball, air)
+        };
+        let flight = law(1.0)?;
+        Ok(Self {
+            rule,
+            gravity_m_per_s2,
+            flight,
+            off: [law(1.0 - DRAG_RELATIVE_STD)?, law(1.0 + DRAG_RELATIVE_STD)?],
+            speed: flight.fall(rule.drop_height_m)?.landing_speed_m_per_s,
+        })
+    }
+
+    /// Height of the rebound for this e.
+    ///
+    /// # Formula
+    /// ```text
+    /// v = v_t·√(1 − exp(−2gh₀/v_t²)),   h = (v_t²/2g)·ln(1 + (e·v/v_t)²)      without air h = e²·h₀
+    /// ```
+    fn rebound_m(&self, flight: &FlightLaw, ln_e: f64) -> Result<f64, Error> {
+        let speed = flight.fall(self.rule.drop_height_m)?.landing_speed_m_per_s;
+        Ok(flight.rise(ln_e.exp() * speed)?.height_m)
+    }
+
+    pub(super) fn judge(&self, drop: &Drop) -> Result<Judged, Error> {
+        let mut judged = Judged {
+            outcome: Outcome::Undecided,
+            rebound_m: None,
+            single_rebound_std_m: None,
+            impact_speed_m_per_s: self.speed,
+            restitution: None,
+            measured_speeds_m_per_s: measured_speeds(drop),
+            extrapolated: false,
+            would_decide: Some("four impacts or more give e an error, and a verdict".to_owned()),
+        };
+        let Some(e) = drop.restitution.as_ref().map(|r| r.estimate) else {
+            return Ok(judged);
+        };
+        let at = self.at_speed(drop, e.value, judged.measured_speeds_m_per_s);
+        let value = self.rebound_m(&self.flight, at.ln)?;
+        judged.restitution = Some(at.ln.exp());
+        judged.extrapolated = at.extrapolated;
+        judged.rebound_m = Some(Estimate::bare(value));
+        let (Some(std), Some(ends)) = (e.std_error, e.interval95) else {
+            return Ok(judged);
+        };
+        let (drag, slope) = (self.drag_std_m(at.ln)?, self.slope_m(at.ln)?);
+        let end = |end: f64| -> Result<f64, Error> {
+            let ln = (end / e.value).ln();
+            let reach = ln.hypot(NORMAL95 * at.std).copysign(ln);
+            let off = self.rebound_m(&self.flight, at.ln + reach)? - value;
+            Ok(value + off.hypot(NORMAL95 * drag).copysign(off))
+        };
+        let rebound = Estimate {
+            value,
+            std_error: Some((slope * (std / e.value).hypot(at.std)).hypot(drag)),
+            interval95: Some([end(ends[0])?, end(ends[1])?]),
+        };
+        judged.rebound_m = Some(rebound);
+        judged.single_rebound_std_m = drop.scatter.bounce_std.map(|s| slope * s);
+        judged.outcome = outcome(rebound, self.rule.allowed_m);
+        let causes = Causes {
+            e_std_m: slope * std / e.value,
+            speed_std_m: slope * at.std,
+            drag_std_m: drag,
+        };
+        let undecided = judged.outcome == Outcome::Undecided;
+        judged.would_decide = undecided.then(|| would_decide(self.rule, drop, rebound, causes));
+        Ok(judged)
+    }
+
+    /// Derivative of the rebound by ln e.
+    fn slope_m(&self, ln_e: f64) -> Result<f64, Error> {
+        const STEP: f64 = 1e-5;
+        let at = |ln| self.rebound_m(&self.flight, ln);
+        Ok((at(ln_e + STEP)? - at(ln_e - STEP)?) / (2.0 * STEP))
+    }
+
+    /// Error of the rebound by that of the drag.
+    fn drag_std_m(&self, ln_e: f64) -> Result<f64, Error> {
+        let [less, more] = &self.off;
+        Ok(0.5 * (self.rebound_m(less, ln_e)? - self.rebound_m(more, ln_e)?).abs())
+    }
+
+    /// ln e at the rule's speed under the selected model, from e at the mean speed heard.
+    fn at_speed(&self, drop: &Drop, e: f64, measured: Option<[f64; 2]>) -> AtSpeed {
+        let mean = drop.restitution.as_ref().and_then(|r| r.at_speed_m_per_s);
+        let ln_speed = mean.map_or(0.0, |mean| (self.speed / mean).ln());
+        let beyond = measured.map_or(0.0, |[slowest, fastest]| {
+            (self.speed / fastest)
+                .ln()
+                .max((slowest / self.speed).ln())
+                .max(0.0)
+        });
+        let exponent = parameter(&drop.model, "speed_exponent");
+        let by_model = exponent.map_or(0.0, |(_, std)| std * ln_speed);
+        // A fitted exponent has its own error out there.
+        let by_chance = exponent.map_or(EXPONENT_BEYOND * beyond, |_| 0.0);
+        let ln = e.ln() - exponent.map_or(0.0, |(p, _)| p * ln_speed) + self.by_weight(drop, e);
+        AtSpeed {
+            // However a model is drawn out, no ball gains.
+            ln: ln.min(-f64::EPSILON),
+            std: by_model.hypot(by_chance),
+            extrapolated: beyond > 0.0,
+        }
+    }
+
+    /// How much ln e of a linear ball is greater at the rule's speed than at those heard, whose weight takes less from
+    /// fast impacts.
+    ///
+    /// # Formula
+    /// ```text
+    /// e(v) ≈ e₀ − 2ζ(1 + e₀)·g/(ω·v)
+    /// ```
+    fn by_weight(&self, drop: &Drop, e: f64) -> f64 {
+        if !drop.model.selected.starts_with("linear") {
+            return 0.0;
+        }
+        let gain = || {
+            let (contact_s, _) = parameter(&drop.model, "contact_time_s")?;
+            let ball = Oscillator::from_contact(Restitution::new(e).ok()?, contact_s).ok()?;
+            let speeds: Vec<f64> = speeds(drop).collect();
+            let slowness = speeds.iter().map(|v| 1.0 / v).sum::<f64>();
+            let mean = slowness / real(speeds.len());
+            let rate = 2.0 * ball.damping_ratio() * (1.0 + e) * self.gravity_m_per_s2
+                / ball.natural_frequency_rad_per_s();
+            Some(rate * (mean - 1.0 / self.speed) / e)
+        };
+        gain().filter(|g: &f64| g.is_finite()).unwrap_or(0.0)
+    }
+}
+
+fn outcome(rebound: Estimate, [least, most]: [f64; 2]) -> Outcome {
+    match rebound.interval95 {
+        Some([low, high]) if low >= least && high <= most => Outcome::Pass,
+        Some([low, high]) if high < least || low > most => Outcome::Fail,
+        _ => Outcome::Undecided,
+    }
+}
+
+/// Value and standard error of a parameter that was fitted or given.
+fn parameter(model: &Model, name: &str) -> Option<(f64, f64)> {
+    let entry = model.parameters.get(name)?;
+    let number = |key: &str| entry.get(key)?.as_f64();
+    Some((number("value")?, number("std_error").unwrap_or(0.0)))
+}
+
+/// Speeds of the impacts of which e was measured.
+fn speeds(drop: &Drop) -> impl Iterator<Item = f64> + '_ {
+    let bounces = drop.impacts.iter().map(|i| &i.bounce);
+    bounces
+        .filter(|b| b.restitution.is_some())
+        .filter_map(|b| b.impact_speed_m_per_s)
+}
+
+fn measured_speeds(drop: &Drop) -> Option<[f64; 2]> {
+    let slowest = speeds(drop).fold(f64::INFINITY, f64::min);
+    let fastest = speeds(drop).fold(0.0, f64::max);
+    (fastest > 0.0).then_some([slowest, fastest])
+}
