@@ -8,8 +8,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis, evaluate ← cli.
-const FORBIDDEN: [(&str, &[&str]); 12] = [
+/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis, evaluate, picture ← cli.
+const FORBIDDEN: [(&str, &[&str]); 13] = [
     (
         "physics",
         &[
@@ -51,8 +51,14 @@ const FORBIDDEN: [(&str, &[&str]); 12] = [
     (
         "plot",
         &[
-            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "solve", "synth",
-            "cli",
+            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "picture",
+            "solve", "synth", "cli",
+        ],
+    ),
+    (
+        "picture",
+        &[
+            "detect", "sequence", "wav", "analysis", "solve", "synth", "evaluate", "cli",
         ],
     ),
     (
@@ -83,9 +89,9 @@ const FORBIDDEN: [(&str, &[&str]); 12] = [
 ];
 
 /// Folders that must build without a file system, threads or a terminal.
-const CORE: [&str; 10] = [
-    "physics", "detect", "sequence", "fit", "report", "analysis", "plot", "solve", "synth",
-    "evaluate",
+const CORE: [&str; 11] = [
+    "picture", "physics", "detect", "sequence", "fit", "report", "analysis", "plot", "solve",
+    "synth", "evaluate",
 ];
 const OUTSIDE: [&str; 6] = [
     "std::fs",

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 
+use super::picture::{Target, check_readable_twice, draw_sheets};
 use super::{Outcome, acceleration, length, mass, time};
 use crate::Error;
 use crate::analysis::{Listener, Settings};
@@ -22,6 +23,7 @@ use crate::wav::Stream;
   bounce-audio analyze drop.wav
   bounce-audio analyze drop.wav --height 30.5cm
   bounce-audio analyze drop.wav --start 2 --end 9 --format json
+  bounce-audio analyze drop.wav --plot drop.svg
   sox drop.mp3 -t wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
     /// A WAV file, or - for standard input
@@ -62,6 +64,9 @@ pub(super) struct Arguments {
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Draw a sheet into this picture; of several drops OUT-1.svg, OUT-2.svg, …; not for a pipe
+    #[arg(long, value_name = "OUT.svg|png")]
+    plot: Option<PathBuf>,
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -149,6 +154,10 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let target = arguments.plot.as_deref().map(Target::new).transpose()?;
+    if target.is_some() {
+        check_readable_twice(&arguments.file)?;
+    }
     let report = if arguments.file == Path::new("-") {
         let open = Stream::open(io::stdin().lock());
         open.and_then(|stream| listen(arguments, stream))
@@ -157,6 +166,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         let stream = Stream::open_file(&arguments.file)?;
         listen(arguments, stream).map_err(|e| e.in_file(&arguments.file))?
     };
+    if let Some(target) = target {
+        draw_sheets(&target, &arguments.file, &report)?;
+    }
     let output = match arguments.format {
         Format::Text => text::to_text(&report),
         Format::Csv => csv::to_csv(&report),

@@ -3,6 +3,8 @@
 mod analyze;
 mod evaluate;
 mod limit;
+mod output;
+mod picture;
 mod solve;
 mod synth;
 
