@@ -1,15 +1,16 @@
 //! Flights, residuals, heights and e of a drop, each with its error, beside what the model expects.
 
 use super::fitted::{Law, Observed};
-use super::{around, around_by_ratio};
+use super::{around, around_by_ratio, at_least};
 use crate::plot::{Axis, Band, Colour, Curve, Dots, Layer, Panel, Shape, Stroke};
 use crate::report::{Drop, Impact};
 use crate::units::real;
 
+/// Residuals and e are not shown more closely than this.
+const LEAST_REACH_PERCENT: f64 = 0.01;
+const LEAST_RANGE: f64 = 0.002;
 /// Steps of a line over speeds.
 const STEPS: u8 = 60;
-/// Error bars reach out of a panel rather than make it more than this many times as high as the points do.
-const BARS: f64 = 2.0;
 
 /// The bounces of a drop with the line of its model.
 pub(super) struct Bounces<'a> {
@@ -62,7 +63,7 @@ impl<'a> Bounces<'a> {
         self.lined(panel, line.collect(), "model").with(Layer::Dots(
             Dots::new(points, Shape::Point, Colour::BLUE)
                 .with_errors(errors)
-                .named("heard"),
+                .named("measured"),
         ))
     }
 
@@ -78,21 +79,14 @@ impl<'a> Bounces<'a> {
             Some(((real(n + 1), left), 100.0 * ln_interval_std(impact)))
         });
         let (points, errors): (Vec<_>, Vec<_>) = rows.unzip();
-        let (low, high) = with_bars(&points, &errors);
-        let reach = high.max(-low);
+        let (low, high) = most(&points, &errors);
+        let reach = high.max(-low).max(LEAST_REACH_PERCENT);
         let residual = Axis::linear("ln T − model (%)", -reach, reach).with_ticks(5);
         let panel = Panel::new(self.numbers(), residual).headed("Residuals of ln T");
         let panel = self.banded(panel, |t, expected| 100.0 * (t / expected).ln());
-        let zero = (0..=self.drop.impacts.len()).map(|n| (real(n), 0.0));
-        panel
-            .with(Layer::Curve(
-                Curve::new(zero.collect(), Colour::RED).stroke(Stroke::Dashed),
-            ))
-            .with(Layer::Dots(
-                Dots::new(points, Shape::Point, Colour::BLUE)
-                    .with_errors(errors)
-                    .named("± by the times"),
-            ))
+        let zero = vec![(panel.x.from, 0.0), (panel.x.to, 0.0)];
+        let zero = Curve::new(zero, Colour::RED).stroke(Stroke::Dashed);
+        with_points(panel.with(Layer::Curve(zero)), points, errors)
     }
 
     /// e of each impact against its speed, with the line of the model.
@@ -114,7 +108,9 @@ impl<'a> Bounces<'a> {
             speeds.clone().filter_map(at)
         });
         let law: Vec<(f64, f64)> = law.collect();
-        let (low, high) = sure(&points, &errors, &law);
+        let (low, high) = most(&points, &errors);
+        let (low, high) = around(law.iter().map(|p| p.1).chain([low, high]), 0.0);
+        let (low, high) = at_least((low, high), LEAST_RANGE);
         let speed = Axis::logarithmic("impact speed (m/s)", slow, fast);
         let mut panel = Panel::new(speed, Axis::linear("e", low, high).with_ticks(6))
             .headed("e of each impact");
@@ -127,11 +123,7 @@ impl<'a> Bounces<'a> {
         if !law.is_empty() {
             panel = panel.with(Layer::Curve(Curve::new(law, Colour::RED).named("model")));
         }
-        panel.with(Layer::Dots(
-            Dots::new(points, Shape::Point, Colour::BLUE)
-                .with_errors(errors)
-                .named("± by the times"),
-        ))
+        with_points(panel, points, errors)
     }
 
     /// Heights of the rebounds against their number, on a logarithmic axis.
@@ -162,12 +154,7 @@ impl<'a> Bounces<'a> {
     fn numbers(&self) -> Axis {
         let last = real(self.drop.impacts.len()).max(2.0);
         let room = 0.02 * last + 0.3;
-        Axis::counting(
-            "n, counted from the first impact heard",
-            1.0 - room,
-            last + room,
-        )
-        .with_ticks(8)
+        Axis::counting("impact n", 1.0 - room, last + room).with_ticks(8)
     }
 
     fn lined(&self, panel: Panel, line: Vec<f64>, name: &str) -> Panel {
@@ -209,31 +196,34 @@ fn ln_interval_std(impact: &Impact) -> f64 {
     height.map_or(0.0, |(height, std)| 0.5 * std / height)
 }
 
-/// Ends of an axis with points and, as far as they are not much longer than these scatter, their error bars.
-fn with_bars(points: &[(f64, f64)], errors: &[f64]) -> (f64, f64) {
-    let (low, high) = around(points.iter().map(|p| p.1).chain([0.0]), 0.0);
-    let most = BARS * (high - low);
+/// Ends of an axis for points with error bars: it holds them all, but for the few that would leave the rest no room.
+fn most(points: &[(f64, f64)], errors: &[f64]) -> (f64, f64) {
+    let mut values: Vec<f64> = points.iter().map(|p| p.1).collect();
+    values.sort_by(f64::total_cmp);
+    let tenth = values.len() / 10;
+    let middle = values.get(tenth..values.len() - tenth).unwrap_or(&[]);
+    let (Some(low), Some(high)) = (middle.first(), middle.last()) else {
+        return around([], 0.0);
+    };
+    let beyond = BEYOND * (high - low).max(1e-6 * high.abs());
     let bars = points.iter().zip(errors);
-    let ends = bars.flat_map(|(p, e)| [p.1 - e.min(most), p.1 + e.min(most)]);
-    around(ends.chain([low, high]), 0.08)
+    let ends = bars.flat_map(|(p, e)| [p.1 - e, p.1 + e]);
+    around(ends.map(|end| end.clamp(low - beyond, high + beyond)), 0.06)
 }
 
-/// Ends of an axis for e: it holds the line, and the points that are not so unsure that they would hide the others.
-fn sure(points: &[(f64, f64)], errors: &[f64], line: &[(f64, f64)]) -> (f64, f64) {
-    let mut sorted = errors.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let most = UNSURE
-        * sorted
-            .get(sorted.len() / 2)
-            .copied()
-            .unwrap_or(0.0)
-            .max(LEAST_STD);
-    let rows = points.iter().zip(errors).filter(|(_, e)| **e <= most);
-    let ends = rows.flat_map(|(p, e)| [p.1 - e, p.1 + e]);
-    around(ends.chain(line.iter().map(|p| p.1)), 0.08)
-}
+/// What lies further from the middle eighty percent than this many times their range does not make a panel higher.
+const BEYOND: f64 = 2.0;
 
-/// A point with an error that is this many times the median, or more, does not make the panel higher.
-const UNSURE: f64 = 10.0;
-/// An error of e below this is nothing that hides others.
-const LEAST_STD: f64 = 1e-3;
+/// Points with their errors; those beyond the axis stand at its edge, as rings.
+fn with_points(panel: Panel, points: Vec<(f64, f64)>, errors: Vec<f64>) -> Panel {
+    let (low, high) = (panel.y.from, panel.y.to);
+    let beyond = points.iter().filter(|p| !(low..=high).contains(&p.1));
+    let beyond: Vec<(f64, f64)> = beyond.map(|p| (p.0, p.1.clamp(low, high))).collect();
+    let dots = Dots::new(points, Shape::Point, Colour::BLUE).with_errors(errors);
+    let panel = panel.with(Layer::Dots(dots.named("measured")));
+    if beyond.is_empty() {
+        return panel;
+    }
+    let beyond = Dots::new(beyond, Shape::Circlet, Colour::BLUE);
+    panel.with(Layer::Dots(beyond.named("beyond")))
+}

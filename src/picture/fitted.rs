@@ -11,7 +11,7 @@ const ROUNDS: usize = 4;
 #[derive(Debug, Clone)]
 pub(super) struct Law {
     restitution: f64,
-    /// e is `restitution` at this speed in m/s, and goes with this power of it.
+    /// e is `restitution` at this speed in m/s, and goes with this power of how much slower an impact is.
     at_speed_m_per_s: f64,
     exponent: f64,
     contact_s: f64,
@@ -61,7 +61,7 @@ impl Law {
     /// e and the time in contact, in seconds, of an impact at this speed; none where the ball would not leave.
     pub(super) fn contact(&self, speed_m_per_s: f64) -> Option<(f64, f64)> {
         let Some(weighty) = &self.weighty else {
-            let slower = speed_m_per_s / self.at_speed_m_per_s;
+            let slower = self.at_speed_m_per_s / speed_m_per_s;
             let e = self.factor * self.restitution * slower.powf(self.exponent);
             return Some((e, self.contact_s));
         };
@@ -148,7 +148,7 @@ mod tests {
         let law = Law {
             restitution: 0.9,
             at_speed_m_per_s: 1.0,
-            exponent: -0.02,
+            exponent: 0.02,
             contact_s: 1e-3,
             drag_per_s2: 1.2,
             gravity_m_per_s2: 9.81,

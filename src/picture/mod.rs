@@ -26,11 +26,17 @@ fn around(values: impl IntoIterator<Item = f64>, room: f64) -> (f64, f64) {
     (low - room * extent, high + room * extent)
 }
 
-/// The same for positive values on a logarithmic axis.
+/// The same for positive values on a logarithmic axis, which then spans a factor of 1.2 at least.
 fn around_by_ratio(values: impl IntoIterator<Item = f64>, room: f64) -> (f64, f64) {
     let logarithms = values.into_iter().filter(|v| *v > 0.0).map(f64::ln);
-    let (low, high) = around(logarithms, room);
+    let (low, high) = at_least(around(logarithms, room), 0.2);
     (low.exp(), high.exp())
+}
+
+/// Ends of an axis moved apart to an extent.
+fn at_least((low, high): (f64, f64), extent: f64) -> (f64, f64) {
+    let missing = (extent - (high - low)).max(0.0);
+    (low - 0.5 * missing, high + 0.5 * missing)
 }
 
 /// A name from outside that can stand in a document: without control characters.

@@ -8,6 +8,9 @@ use crate::report::{Drop, decimals};
 /// More samples than this are shown by the least and the greatest of each few.
 const MOST_POINTS: usize = 1000;
 
+/// Errors of times below a thousandth of a microsecond are not written out.
+const LEAST_STD_S: f64 = 1e-9;
+
 /// A panel for each onset.
 pub(super) fn panels(drop: &Drop, onsets: &[Onset]) -> Vec<Panel> {
     let panels = onsets.iter().filter(|onset| !onset.samples.is_empty());
@@ -23,9 +26,9 @@ fn panel(drop: &Drop, onset: &Onset) -> Panel {
     let (low, high) = around([-greatest, greatest], 0.1);
     let (from, to) = around(points.iter().map(|p| p.0), 0.0);
     let std_ms = 1e3 * impact.time_std_s.unwrap_or(0.0);
-    let amplitude = Axis::linear("amplitude", low, high).with_ticks(4);
+    let amplitude = Axis::linear("amplitude", low, high).with_ticks(5);
     Panel::new(
-        Axis::linear("from its time (ms)", from, to).with_ticks(6),
+        Axis::linear("after its onset (ms)", from, to).with_ticks(6),
         amplitude,
     )
     .headed(format!(
@@ -41,7 +44,9 @@ fn panel(drop: &Drop, onset: &Onset) -> Panel {
     .with(Layer::Curve(
         Curve::new(vec![(0.0, low), (0.0, high)], Colour::RED).stroke(Stroke::Dashed),
     ))
-    .with(Layer::Curve(Curve::new(points, Colour::BLUE)))
+    .with(Layer::Curve(
+        Curve::new(points, Colour::BLUE).stroke(Stroke::Fine),
+    ))
 }
 
 /// `0.700217 s ± 0.014 µs`.
@@ -55,6 +60,9 @@ fn time(time_s: f64, std_s: Option<f64>) -> String {
     } else {
         (1e3 * std_s, "ms")
     };
+    if std_s < LEAST_STD_S {
+        return format!("{time_s:.places$} s ± < 0.001 µs");
+    }
     let digits = decimals(std);
     format!("{time_s:.places$} s ± {std:.digits$} {unit}")
 }

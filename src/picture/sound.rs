@@ -9,8 +9,8 @@ const STRETCHES: usize = 1200;
 const BESIDE: f64 = 0.05;
 const BESIDE_S: f64 = 0.05;
 /// An onset is shown from this long before its time to that long after it, in seconds …
-const BEFORE_S: f64 = 2e-3;
-const AFTER_S: f64 = 6e-3;
+const BEFORE_S: f64 = 3e-3;
+const AFTER_S: f64 = 8e-3;
 /// … and longer, up to this factor, where its time is unsure: its error is then this share of what is before it.
 const LONGEST: f64 = 4.0;
 const ERROR_SHARE: f64 = 0.4;
@@ -163,12 +163,12 @@ impl Sound {
         levels.map(move |(i, &peak)| (self.from_s + (real(i) + 0.5) * length_s, level(peak)))
     }
 
-    /// The greatest level of the stretch at a time and of its neighbours.
+    /// The level of the stretch at a time.
     #[must_use]
     pub fn level_at(&self, time_s: f64) -> f64 {
-        let near_s = 1.5 * (self.to_s - self.from_s) / real(self.peaks.len());
-        let near = self.levels().filter(|(t, _)| (t - time_s).abs() <= near_s);
-        near.map(|(_, level)| level)
-            .fold(f64::NEG_INFINITY, f64::max)
+        let nearest =
+            |a: &(f64, f64), b: &(f64, f64)| (a.0 - time_s).abs().total_cmp(&(b.0 - time_s).abs());
+        let nearest = self.levels().min_by(nearest);
+        nearest.map_or(f64::NEG_INFINITY, |(_, level)| level)
     }
 }

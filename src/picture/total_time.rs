@@ -41,7 +41,7 @@ pub fn figure(
     title: &str,
 ) -> Result<Figure, Error> {
     let series = BounceSeries::new(height_m, gravity_m_per_s2)?;
-    let last = BEYOND * real(point.bounces.max(2));
+    let last = samples_in(BEYOND * real(point.bounces.max(2)), 1.0);
     let own = point.restitution;
     let mut drawn: Vec<(f64, Colour)> = CURVES.into_iter().zip(Colour::FAMILY).collect();
     drawn.retain(|(e, _)| own.is_none_or(|own| (e - own).abs() > NEAR));
@@ -49,7 +49,7 @@ pub fn figure(
     let (mut curves, mut names) = (Vec::new(), Vec::new());
     let mut longest = point.total_time_s;
     for (e, colour) in drawn {
-        let points = curve(&series, Restitution::new(e)?, samples_in(last, 1.0))?;
+        let points = curve(&series, Restitution::new(e)?, last)?;
         let at = points.last().copied().unwrap_or_default();
         longest = longest.max(at.1);
         let digits = if own == Some(e) { 4 } else { 2 };
@@ -69,7 +69,7 @@ pub fn figure(
         dot = dot.with_errors([std_s]);
     }
     let mut panel = Panel::new(
-        Axis::counting("number of bounces n", 0.0, ROOM * last),
+        Axis::counting("number of bounces n", 0.0, ROOM * real(last)),
         Axis::linear(
             "total time from release to rest (s)",
             0.0,

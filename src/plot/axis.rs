@@ -228,7 +228,7 @@ fn linear_label(value: f64, step: f64) -> String {
     let decimals = (0..12_u8)
         .find(|&d| {
             let scaled = step * 10_f64.powi(i32::from(d));
-            (scaled - scaled.round()).abs() < 1e-6
+            scaled > 0.5 && (scaled - scaled.round()).abs() < 1e-6
         })
         .map_or(12, usize::from);
     // Adding 0 turns −0 into 0.
@@ -292,6 +292,10 @@ mod tests {
         assert_eq!(
             labels(&Axis::logarithmic("", 310.0, 390.0).with_ticks(4)),
             ["320", "340", "360", "380"]
+        );
+        assert_eq!(
+            labels(&Axis::linear("", 1e-7, 4e-7).with_ticks(3)),
+            ["0.0000001", "0.0000002", "0.0000003", "0.0000004"]
         );
         assert_eq!(labels(&Axis::counting("", 0.5, 2.5)), ["1", "2"]);
         assert!(labels(&Axis::linear("", 0.0, 1.0).with_ticks(0)).is_empty());

@@ -96,6 +96,28 @@ impl<'a> DrawingBackend for Bitmap<'a> {
         self.0.draw_line(from, to, style)
     }
 
+    /// Piece by piece with round joints: all at once, `plotters` draws long spikes where a line turns back.
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> Outcome<'a> {
+        let radius = style.stroke_width() / 2;
+        let mut before = None;
+        for point in path {
+            if let Some(before) = before {
+                if radius > 0 {
+                    self.0.draw_path([before, point], style)?;
+                    self.0.draw_circle(point, radius, style, true)?;
+                } else {
+                    self.0.draw_line(before, point, style)?;
+                }
+            }
+            before = Some(point);
+        }
+        Ok(())
+    }
+
     fn draw_rect<S: BackendStyle>(
         &mut self,
         upper_left: BackendCoord,

@@ -169,7 +169,7 @@ impl Pen {
     pub(super) fn stroke(self, curve: &Curve) -> ShapeStyle {
         match curve.stroke {
             Stroke::Solid => self.line(curve.colour, style::CURVE_PX),
-            Stroke::Dashed => self.line(curve.colour, 2),
+            Stroke::Fine | Stroke::Dashed => self.line(curve.colour, 2),
             Stroke::Broad => {
                 let pale = curve.colour.0.mix(0.4);
                 pale.stroke_width(self.width(style::BROAD_PX))

@@ -1,9 +1,9 @@
 //! Texts in a panel, and which of them have room.
 
-use plotters::element::{EmptyElement, Text};
+use plotters::element::{EmptyElement, Rectangle, Text};
 use plotters::prelude::DrawingBackend;
-use plotters::style::TextStyle;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
+use plotters::style::{Color, TextStyle, WHITE};
 
 use super::draw::{Chart, Pen, problem};
 use super::{Note, Side, style};
@@ -52,6 +52,7 @@ impl Pen {
     ) -> Result<(), Error> {
         let (across, down) = chart.plotting_area().get_pixel_range();
         let panel = [across.start, down.start, across.end, down.end];
+        let sheet = chart.plotting_area().strip_coord_spec();
         let mut taken: Vec<Frame> = Vec::new();
         for note in notes {
             let frame = self.frame(chart, note)?;
@@ -60,6 +61,11 @@ impl Pen {
                 && frame[2] <= panel[2]
                 && frame[3] <= panel[3];
             if within && !taken.iter().any(|other| touch(*other, frame)) {
+                // Lines of the grid do not go through the text.
+                let ground = [(frame[0], frame[1]), (frame[2], frame[3])]
+                    .map(|(x, y)| (x - across.start, y - down.start));
+                let ground = Rectangle::new(ground, WHITE.mix(0.8).filled());
+                sheet.draw(&ground).map_err(|e| problem(&e))?;
                 self.note(chart, note)?;
                 taken.push(frame);
             }

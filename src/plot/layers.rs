@@ -43,6 +43,8 @@ impl Layer {
 pub enum Stroke {
     /// Solid.
     Solid,
+    /// Solid and thin: for the swings of a sound.
+    Fine,
     /// Solid, pale and wide: to be seen beneath a dashed line.
     Broad,
     /// Dashed and thin.

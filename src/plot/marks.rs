@@ -112,7 +112,7 @@ fn within(axis: &Axis, value: f64) -> bool {
 fn clamped(axis: &Axis, value: f64) -> Option<f64> {
     // What is not positive lies below the start of a logarithmic axis.
     let place = axis.place(value);
-    if place.is_nan() && !(value < 0.0) {
+    if value.is_nan() || (place.is_nan() && value > 0.0) {
         return None;
     }
     Some(if place > 0.0 {
