@@ -164,7 +164,7 @@ fn a_sheet_has_a_mark_for_each_impact_and_for_all_that_follows_from_it() {
         "Impact 1: 0.",
         "Flight T",
         "Residuals of ln T",
-        "e of each impact",
+        "e by speed",
         "Rebound heights",
         ">\n1\n",
         ">\n10\n",

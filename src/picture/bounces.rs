@@ -112,8 +112,8 @@ impl<'a> Bounces<'a> {
         let (low, high) = around(law.iter().map(|p| p.1).chain([low, high]), 0.0);
         let (low, high) = at_least((low, high), LEAST_RANGE);
         let speed = Axis::logarithmic("impact speed (m/s)", slow, fast);
-        let mut panel = Panel::new(speed, Axis::linear("e", low, high).with_ticks(6))
-            .headed("e of each impact");
+        let mut panel =
+            Panel::new(speed, Axis::linear("e", low, high).with_ticks(6)).headed("e by speed");
         let interval = self.drop.restitution.as_ref();
         let interval = interval.and_then(|r| Some((r.estimate.value, r.estimate.interval95?)));
         if let Some((e, [from, to])) = interval {

@@ -10,7 +10,7 @@ use super::{Colour, Corner, Layer, Panel, Shape, Stroke, style};
 use crate::Error;
 
 /// Room between an entry of the legend and the next.
-const BETWEEN_PX: u32 = 26;
+const BETWEEN_PX: u32 = 18;
 
 impl Pen {
     /// Draws heading and legend into an area one line high, between these places.
