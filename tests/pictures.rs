@@ -270,7 +270,7 @@ fn rows(count: u32) -> Vec<BatchRow> {
         BatchRow {
             name: format!("class of Tuesday/ball-30cm-{i:03}.wav"),
             restitution: e,
-            interval95: (i % 5 != 0).then_some([e - 0.004, e + 0.005]),
+            interval95: (!i.is_multiple_of(5)).then_some([e - 0.004, e + 0.005]),
         }
     };
     (0..count).map(row).collect()

@@ -5,7 +5,7 @@ use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule};
 use crate::report::Drop;
 
 /// Rounds in which a line is moved onto the flights.
-const ROUNDS: usize = 4;
+const ROUNDS: usize = 30;
 
 /// e and the time in contact at every speed, and the drag between.
 #[derive(Debug, Clone)]
