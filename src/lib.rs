@@ -57,6 +57,7 @@ pub mod error;
 pub mod evaluate;
 pub mod fit;
 pub mod physics;
+pub mod picture;
 pub mod plot;
 pub mod random;
 pub mod report;

@@ -8,8 +8,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis, evaluate ← cli.
-const FORBIDDEN: [(&str, &[&str]); 13] = [
+/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis, evaluate, picture ← cli.
+const FORBIDDEN: [(&str, &[&str]); 14] = [
     (
         "physics",
         &[
@@ -57,8 +57,14 @@ const FORBIDDEN: [(&str, &[&str]); 13] = [
     (
         "plot",
         &[
-            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "solve", "synth",
-            "cli",
+            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "picture",
+            "solve", "synth", "cli",
+        ],
+    ),
+    (
+        "picture",
+        &[
+            "detect", "sequence", "wav", "analysis", "solve", "synth", "evaluate", "cli",
         ],
     ),
     (
@@ -89,9 +95,9 @@ const FORBIDDEN: [(&str, &[&str]); 13] = [
 ];
 
 /// Folders that must build without a file system, threads or a terminal.
-const CORE: [&str; 11] = [
-    "physics", "detect", "sequence", "fit", "report", "analysis", "rules", "plot", "solve",
-    "synth", "evaluate",
+const CORE: [&str; 12] = [
+    "picture", "physics", "detect", "sequence", "fit", "report", "analysis", "rules", "plot",
+    "solve", "synth", "evaluate",
 ];
 const OUTSIDE: [&str; 6] = [
     "std::fs",

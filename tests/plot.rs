@@ -6,19 +6,15 @@
 )]
 
 use bounce_audio::plot::{
-    Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Side, Stroke, to_png, to_svg,
+    Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side, Stroke, to_png,
+    to_svg,
 };
 
 fn figure() -> Figure {
     let line = vec![(0.0, 1.0), (10.0, 1000.0)];
     let x = Axis::linear("time t (s)", 0.0, 10.0);
     let y = Axis::logarithmic("stiffness k/m (s⁻²)", 1.0, 1000.0);
-    let dots = Dots {
-        points: vec![(5.0, 30.0)],
-        colour: Colour::BLACK,
-        hollow: true,
-        name: Some("measured".to_owned()),
-    };
+    let dots = Dots::new(vec![(5.0, 30.0)], Shape::Ring, Colour::BLACK).named("measured");
     let note = Note {
         at: (2.0, 10.0),
         side: Side::Right,

@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use super::Outcome;
 use super::labels::LabelArguments;
 use super::listen::{Hearing, Listening};
+use super::picture::{Target, check_readable_twice, draw_sheets};
 use super::rule::RuleArguments;
 use crate::Error;
 use crate::report::text::Detail;
@@ -22,6 +23,7 @@ use crate::wav::Stream;
   bounce-audio analyze drop.wav
   bounce-audio analyze drop.wav --height 30.5cm
   bounce-audio analyze drop.wav --start 2 --end 9 --format json
+  bounce-audio analyze drop.wav --plot drop.svg
   bounce-audio analyze drop.wav --labels drop.txt       (open both in Audacity, edit, export the labels)
   bounce-audio analyze drop.wav --impacts drop.txt      (fit what was edited)
   bounce-audio analyze drop.wav --rule ittf-ball
@@ -40,6 +42,9 @@ pub(super) struct Arguments {
     /// In the text every sound that was rejected, and the models that were compared
     #[arg(short, long)]
     verbose: bool,
+    /// Draw a sheet into this picture; of several drops OUT-1.svg, OUT-2.svg, …; not for a pipe
+    #[arg(long, value_name = "OUT.svg|png")]
+    plot: Option<PathBuf>,
     #[command(flatten)]
     labels: LabelArguments,
     #[command(flatten)]
@@ -57,6 +62,10 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let target = arguments.plot.as_deref().map(Target::new).transpose()?;
+    if target.is_some() {
+        check_readable_twice(&arguments.file)?;
+    }
     let labels = arguments.labels.given()?;
     let mut settings = arguments.listening.settings();
     arguments.rule.complete(&mut settings);
@@ -70,6 +79,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     };
     arguments.rule.judge(&mut report)?;
     arguments.labels.write(&report)?;
+    if let Some(target) = target {
+        draw_sheets(&target, &arguments.file, &report)?;
+    }
     let output = match arguments.format {
         Format::Text => text::to_text(&report, detail(arguments)),
         Format::Csv => csv::to_csv(&report),

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 
+use super::picture::Target;
 use super::{Outcome, limit};
 use crate::Error;
 use crate::analysis::{Settings, analyze_clearest};
@@ -17,7 +18,6 @@ use crate::evaluate::scores::{FileScore, score};
 use crate::evaluate::text::to_text;
 use crate::evaluate::thresholds::Thresholds;
 use crate::fit::ladder::Choice;
-use crate::plot;
 use crate::units::real;
 use crate::wav;
 
@@ -79,6 +79,7 @@ const HELD: Way = ("correlation", Timing::Correlation, "auto", Choice::Auto);
 type Way = (&'static str, Timing, &'static str, Choice);
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let target = arguments.plot.as_deref().map(Target::new).transpose()?;
     let files = recordings(&arguments.folder)?;
     let mut tiers = WAYS.map(|(timing, _, model, _)| Tier {
         timing: timing.to_owned(),
@@ -100,8 +101,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         Format::Text => to_text(&evaluation),
         Format::Json => evaluation.to_json().map_err(std::io::Error::from)?,
     };
-    if let Some(path) = &arguments.plot {
-        draw(path, &evaluation).map_err(|e| e.in_file(path))?;
+    if let Some(target) = target {
+        target.draw(&picture::figure(&evaluation))?;
     }
     let complaints = hold(arguments, &evaluation)?;
     if matches!(arguments.format, Format::Text) {
@@ -111,23 +112,6 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         output,
         status: u8::from(!complaints.is_empty()),
     })
-}
-
-/// Writes the picture of error against speed, SVG or PNG by the name's ending.
-fn draw(path: &Path, evaluation: &Evaluation) -> Result<(), Error> {
-    let figure = picture::figure(evaluation);
-    let bytes = match path.extension().and_then(|e| e.to_str()) {
-        Some("svg") => plot::to_svg(&figure)?.into_bytes(),
-        Some("png") => plot::to_png(&figure)?,
-        _ => {
-            return Err(Error::Argument {
-                argument: "--plot",
-                got: format!("'{}'", path.display()),
-                expected: "a name that ends in .svg or .png",
-            });
-        }
-    };
-    Ok(fs::write(path, bytes)?)
 }
 
 /// Recordings with truth, by name.

@@ -8,6 +8,7 @@ mod labels;
 mod limit;
 mod listen;
 mod output;
+mod picture;
 mod rule;
 mod solve;
 mod synth;

@@ -35,3 +35,22 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
         drop(fs::remove_file(&partial));
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_put_in_its_place_leaves_nothing_behind() {
+        let folder = std::env::temp_dir().join(format!("bounce-output-{}", std::process::id()));
+        fs::create_dir_all(folder.join("taken.svg/inside")).unwrap();
+        let file = folder.join("a.svg");
+        write(&file, b"old").unwrap();
+        write(&file, b"new").unwrap();
+        assert_eq!(fs::read(&file).unwrap(), b"new");
+        let error = write(&folder.join("taken.svg"), b"x").unwrap_err();
+        assert!(error.to_string().contains("taken.svg"), "{error}");
+        assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
+        fs::remove_dir_all(folder).unwrap();
+    }
+}

@@ -1,11 +1,14 @@
 //! `bounce-audio solve`: the ball from numbers typed in.
 
 use std::io;
+use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
 
+use super::picture::Target;
 use super::{Outcome, acceleration, length, mass, time};
 use crate::Error;
+use crate::picture::total_time::{Point, figure};
 use crate::solve::{self, ContactInputs, GivenErrors, Surroundings, TotalTimeInputs, text};
 
 /// Find the ball (restitution, contact time, stiffness, damping) from numbers instead of a recording.
@@ -76,6 +79,14 @@ pub(super) struct Arguments {
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// Draw total time against the number of bounces, with this drop in it (Figure 4 of the paper)
+    #[arg(
+        long,
+        value_name = "OUT.svg|png",
+        requires = "bounces",
+        conflicts_with = "restitution"
+    )]
+    plot: Option<PathBuf>,
     #[command(flatten)]
     errors: ErrorArguments,
 }
@@ -151,11 +162,12 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let output = solution(arguments).map_err(by_option)?;
+    let target = arguments.plot.as_deref().map(Target::new).transpose()?;
+    let output = solution(arguments, target.as_ref()).map_err(by_option)?;
     Ok(Outcome { output, status: 0 })
 }
 
-fn solution(arguments: &Arguments) -> Result<String, Error> {
+fn solution(arguments: &Arguments, target: Option<&Target>) -> Result<String, Error> {
     match (
         arguments.bounces,
         arguments.total_time,
@@ -171,6 +183,10 @@ fn solution(arguments: &Arguments) -> Result<String, Error> {
                 contact_time_s,
                 ball: arguments.surroundings(),
             })?;
+            if let Some(target) = target {
+                let e = solved.eq25.values.restitution;
+                draw(target, arguments, (bounces, total_time_s, height_m), e)?;
+            }
             match arguments.format {
                 Format::Text => Ok(text::total_time(&solved)),
                 Format::Json => Ok(solve::to_json(&solved).map_err(io::Error::from)?),
@@ -195,6 +211,32 @@ fn solution(arguments: &Arguments) -> Result<String, Error> {
             expected: "--bounces, --total-time and --height, or --restitution and --contact-time",
         }),
     }
+}
+
+/// Draws n, `T_total` and h0 among the curves of (25).
+fn draw(
+    target: &Target,
+    arguments: &Arguments,
+    (bounces, total_time_s, height_m): (usize, f64, f64),
+    restitution: f64,
+) -> Result<(), Error> {
+    let point = Point {
+        bounces,
+        total_time_s,
+        total_time_std_s: arguments.errors.total_time_error,
+        restitution: Some(restitution),
+        name: format!("n = {bounces}, {total_time_s} s"),
+    };
+    let title = format!(
+        "Total time by eq. (25), h₀ = {} cm",
+        shown(100.0 * height_m)
+    );
+    target.draw(&figure(height_m, arguments.gravity, &point, &title)?)
+}
+
+/// A number without the noise of its last binary digits.
+fn shown(value: f64) -> f64 {
+    (1e6 * value).round() / 1e6
 }
 
 impl Arguments {

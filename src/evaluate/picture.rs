@@ -1,7 +1,9 @@
 //! Error against speed: a mark for each way of timing and each model, and the limit.
 
 use super::rows::{Evaluation, Row};
-use crate::plot::{Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Side, Stroke};
+use crate::plot::{
+    Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side, Stroke,
+};
 
 /// Room left around the marks, as a factor on both axes.
 const ROOM: f64 = 3.0;
@@ -77,13 +79,8 @@ fn panel(error: &str, upper: &str, mut marks: Vec<Mark>, limit: f64) -> Panel {
     let fastest = marks.iter().map(|m| m.speed).fold(limit, f64::max);
     // The legend stands below the lowest mark.
     let errors = (lowest / ROOM.powi(3), highest * ROOM);
-    let dots = |hollow: bool, name: &str, points: Vec<(f64, f64)>| {
-        Layer::Dots(Dots {
-            points,
-            colour: Colour::BLUE,
-            hollow,
-            name: Some(name.to_owned()),
-        })
+    let dots = |shape: Shape, name: &str, points: Vec<(f64, f64)>| {
+        Layer::Dots(Dots::new(points, shape, Colour::BLUE).named(name))
     };
     let speed = "speed (seconds of audio per second of one core)";
     let mut panel = Panel::new(
@@ -97,12 +94,12 @@ fn panel(error: &str, upper: &str, mut marks: Vec<Mark>, limit: f64) -> Panel {
             .named("limit: reading the files and summing squares"),
     ))
     .with(dots(
-        false,
+        Shape::Disc,
         "median",
         marks.iter().map(|m| (m.speed, m.median)).collect(),
     ))
     .with(dots(
-        true,
+        Shape::Ring,
         upper,
         marks.iter().map(|m| (m.speed, m.upper)).collect(),
     ));

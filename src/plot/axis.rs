@@ -28,7 +28,14 @@ pub struct Axis {
     pub to: f64,
     /// Scale.
     pub scale: Scale,
+    /// About how many labelled ticks an even axis has at most; 0 for an axis without any.
+    pub most_ticks: u8,
+    /// Whether it counts: its ticks are whole numbers then.
+    pub whole: bool,
 }
+
+/// Ticks of an axis that is as long as the picture.
+const MOST_TICKS: u8 = 9;
 
 impl Axis {
     /// An even axis.
@@ -39,6 +46,17 @@ impl Axis {
             from,
             to,
             scale: Scale::Linear,
+            most_ticks: MOST_TICKS,
+            whole: false,
+        }
+    }
+
+    /// An even axis of counts.
+    #[must_use]
+    pub fn counting(label: impl Into<String>, from: f64, to: f64) -> Self {
+        Self {
+            whole: true,
+            ..Self::linear(label, from, to)
         }
     }
 
@@ -49,6 +67,13 @@ impl Axis {
             scale: Scale::Logarithmic,
             ..Self::linear(label, from, to)
         }
+    }
+
+    /// The axis with another number of ticks: fewer for a small panel.
+    #[must_use]
+    pub const fn with_ticks(mut self, most: u8) -> Self {
+        self.most_ticks = most;
+        self
     }
 
     pub(super) fn check(&self) -> Result<(), Error> {
@@ -87,9 +112,10 @@ impl Axis {
         }
     }
 
-    /// Distance of labelled ticks on an even axis: 1, 2 or 5 times a power of ten, five to ten of them.
+    /// Distance of labelled ticks on an even axis: 1, 2 or 5 times a power of ten, half as many as it may have or more.
     fn step(&self) -> f64 {
-        let rough = (self.to - self.from) / 9.0;
+        let rough = (self.to - self.from) / f64::from(self.most_ticks.max(1));
+        let rough = if self.whole { rough.max(1.0) } else { rough };
         let power = 10_f64.powf(rough.log10().floor());
         let steps = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * power);
         steps
@@ -99,9 +125,36 @@ impl Axis {
     }
 
     fn ticks(&self) -> Vec<f64> {
+        if self.most_ticks == 0 {
+            return Vec::new();
+        }
         match self.scale {
             Scale::Linear => multiples(self.step(), self.from, self.to),
-            Scale::Logarithmic => self.decades(&[1.0]),
+            Scale::Logarithmic => {
+                let powers = self.decades(&[1.0]);
+                if powers.len() > FEW_POWERS {
+                    return powers;
+                }
+                let finer = self.decades(&[1.0, 2.0, 5.0]);
+                if finer.len() > 1 {
+                    return finer;
+                }
+                // Less than an octave is almost even.
+                multiples(self.step(), self.from, self.to)
+            }
+        }
+    }
+
+    /// How a tick of a logarithmic axis is written: as a power of ten only where it is one.
+    fn logarithmic_label(&self, value: f64) -> String {
+        let power = value.log10();
+        if (power - power.round()).abs() < 1e-9 {
+            power_label(value)
+        } else if self.decades(&[1.0, 2.0, 5.0]).len() > 1 {
+            let decimals = if value < 1.0 { -power.floor() } else { 0.0 };
+            linear_label(value, 10_f64.powf(-decimals))
+        } else {
+            linear_label(value, self.step())
         }
     }
 
@@ -124,6 +177,9 @@ impl Axis {
             .collect()
     }
 }
+
+/// With no more powers of ten than this, a logarithmic axis has ticks between them too.
+const FEW_POWERS: usize = 2;
 
 /// The multiples of `step` from one number to another.
 fn multiples(step: f64, from: f64, to: f64) -> Vec<f64> {
@@ -162,7 +218,7 @@ impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
         match self.scale {
             Scale::Linear => linear_label(*value, self.step()),
-            Scale::Logarithmic => power_label(*value),
+            Scale::Logarithmic => self.logarithmic_label(*value),
         }
     }
 }
@@ -172,7 +228,7 @@ fn linear_label(value: f64, step: f64) -> String {
     let decimals = (0..12_u8)
         .find(|&d| {
             let scaled = step * 10_f64.powi(i32::from(d));
-            (scaled - scaled.round()).abs() < 1e-6
+            scaled > 0.5 && (scaled - scaled.round()).abs() < 1e-6
         })
         .map_or(12, usize::from);
     // Adding 0 turns −0 into 0.
@@ -225,6 +281,24 @@ mod tests {
             ["10⁻⁴", "10⁻³", "0.01", "0.1", "1", "10"]
         );
         assert_eq!(Axis::logarithmic("", 10.0, 100.0).light_lines().len(), 8);
+    }
+
+    #[test]
+    fn short_logarithmic_axes_and_counts_have_ticks_too() {
+        assert_eq!(
+            labels(&Axis::logarithmic("", 0.03, 2.5)),
+            ["0.05", "0.1", "0.2", "0.5", "1", "2"]
+        );
+        assert_eq!(
+            labels(&Axis::logarithmic("", 310.0, 390.0).with_ticks(4)),
+            ["320", "340", "360", "380"]
+        );
+        assert_eq!(
+            labels(&Axis::linear("", 1e-7, 4e-7).with_ticks(3)),
+            ["0.0000001", "0.0000002", "0.0000003", "0.0000004"]
+        );
+        assert_eq!(labels(&Axis::counting("", 0.5, 2.5)), ["1", "2"]);
+        assert!(labels(&Axis::linear("", 0.0, 1.0).with_ticks(0)).is_empty());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
 };
 
-use super::{Figure, SIZE, draw};
+use super::{Figure, draw};
 use crate::Error;
 
 /// The PNG is drawn this much larger and averaged down, for smooth edges.
@@ -17,7 +17,7 @@ const OVERSAMPLING: u32 = 2;
 /// # Errors
 /// [`Error::Plot`] where an axis has no extent or the drawing fails.
 pub fn to_png(figure: &Figure) -> Result<Vec<u8>, Error> {
-    let (width, height) = (SIZE.0 * OVERSAMPLING, SIZE.1 * OVERSAMPLING);
+    let (width, height) = (figure.size.0 * OVERSAMPLING, figure.size.1 * OVERSAMPLING);
     let mut large = vec![0; width as usize * height as usize * CHANNELS];
     {
         let bitmap = BitMapBackend::with_buffer(&mut large, (width, height));
@@ -25,7 +25,7 @@ pub fn to_png(figure: &Figure) -> Result<Vec<u8>, Error> {
         draw::figure(figure, &area, OVERSAMPLING)?;
         area.present().map_err(|e| draw::problem(&e))?;
     }
-    encode(&averaged(&large, width as usize)).map_err(|e| draw::problem(&e))
+    encode(&averaged(&large, width as usize), figure.size).map_err(|e| draw::problem(&e))
 }
 
 /// Red, green, blue.
@@ -51,9 +51,9 @@ fn averaged(large: &[u8], width: usize) -> Vec<u8> {
     small
 }
 
-fn encode(pixels: &[u8]) -> Result<Vec<u8>, png::EncodingError> {
+fn encode(pixels: &[u8], (width, height): (u32, u32)) -> Result<Vec<u8>, png::EncodingError> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, SIZE.0, SIZE.1);
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
     let mut writer = encoder.write_header()?;
@@ -94,6 +94,28 @@ impl<'a> DrawingBackend for Bitmap<'a> {
         style: &S,
     ) -> Outcome<'a> {
         self.0.draw_line(from, to, style)
+    }
+
+    /// Piece by piece with round joints: all at once, `plotters` draws long spikes where a line turns back.
+    fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
+        &mut self,
+        path: I,
+        style: &S,
+    ) -> Outcome<'a> {
+        let radius = style.stroke_width() / 2;
+        let mut before = None;
+        for point in path {
+            if let Some(before) = before {
+                if radius > 0 {
+                    self.0.draw_path([before, point], style)?;
+                    self.0.draw_circle(point, radius, style, true)?;
+                } else {
+                    self.0.draw_line(before, point, style)?;
+                }
+            }
+            before = Some(point);
+        }
+        Ok(())
     }
 
     fn draw_rect<S: BackendStyle>(

@@ -6,17 +6,18 @@ use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::DrawingArea;
-use plotters::element::{Circle, DashedPathElement, EmptyElement, PathElement, Polygon, Text};
+use plotters::element::{DashedPathElement, EmptyElement, PathElement, Polygon};
 use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontFamily, FontStyle, ShapeStyle, TextStyle, WHITE};
 
+use super::heading::fitting;
 use super::style::{self, FONT};
-use super::{Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Side, Stroke, clip};
+use super::{Axis, Colour, Corner, Curve, Figure, Layer, Panel, Stroke, clip};
 use crate::Error;
 
-type Area<DB> = DrawingArea<DB, Shift>;
-type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<Axis, Axis>>;
+pub(super) type Area<DB> = DrawingArea<DB, Shift>;
+pub(super) type Chart<'a, DB> = ChartContext<'a, DB, Cartesian2d<Axis, Axis>>;
 
 pub(super) fn problem(error: &impl Display) -> Error {
     Error::Plot {
@@ -32,41 +33,80 @@ pub(super) fn figure<DB: DrawingBackend>(
 ) -> Result<(), Error> {
     style::register()?;
     area.fill(&WHITE).map_err(|e| problem(&e))?;
-    let pen = Pen { scale };
-    let title = pen.text(style::TITLE_PX, Colour::BLACK);
-    let area = area
-        .margin(pen.px(14), 0, 0, 0)
-        .titled(&figure.title, title)
-        .map_err(|e| problem(&e))?;
-    let parts = area.split_evenly((1, figure.panels.len().max(1)));
-    for (panel, part) in figure.panels.iter().zip(&parts) {
-        pen.panel(panel, part)?;
+    let pen = Pen {
+        scale: f64::from(scale) * figure.density,
+    };
+    let mut rest = area.margin(pen.px(14), 0, 0, 0);
+    let titles = [
+        (Some(&figure.title), style::TITLE_PX),
+        (figure.subtitle.as_ref(), style::TICK_PX),
+    ];
+    for (text, size) in titles {
+        let Some(text) = text else { continue };
+        let (line, below) = rest.split_vertically(pen.px(size + 10));
+        pen.centred(text, size, &line)?;
+        rest = below;
+    }
+    let all: u32 = figure.rows.iter().map(|row| row.height).sum();
+    let (_, height) = rest.dim_in_pixel();
+    for row in &figure.rows {
+        let share = u64::from(height) * u64::from(row.height) / u64::from(all.max(1));
+        let (own, below) = rest.split_vertically(i32::try_from(share).unwrap_or(0));
+        let parts = own.split_evenly((1, row.panels.len().max(1)));
+        for (panel, part) in row.panels.iter().zip(&parts) {
+            pen.panel(panel, part)?;
+        }
+        rest = below;
     }
     Ok(())
 }
 
 /// Draws at one scale.
 #[derive(Debug, Clone, Copy)]
-struct Pen {
-    scale: u32,
+pub(super) struct Pen {
+    scale: f64,
 }
 
 impl Pen {
-    fn px(self, size: u32) -> i32 {
-        i32::try_from(size * self.scale).unwrap_or(i32::MAX)
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "`as` saturates, and sizes are small"
+    )]
+    pub(super) fn px(self, size: u32) -> i32 {
+        (f64::from(size) * self.scale).round() as i32
     }
 
-    fn text(self, size: u32, colour: Colour) -> TextStyle<'static> {
+    pub(super) fn text(self, size: u32, colour: Colour) -> TextStyle<'static> {
         let family = FontFamily::Name(FONT);
-        let size = f64::from(size * self.scale);
+        let size = f64::from(self.px(size));
         TextStyle {
             color: colour.0.to_backend_color(),
             ..TextStyle::from((family, size, FontStyle::Normal))
         }
     }
 
-    fn line(self, colour: Colour, width: u32) -> ShapeStyle {
-        colour.0.stroke_width(width * self.scale)
+    pub(super) fn line(self, colour: Colour, width: u32) -> ShapeStyle {
+        colour.0.stroke_width(self.width(width))
+    }
+
+    fn width(self, width: u32) -> u32 {
+        u32::try_from(self.px(width)).unwrap_or(0).max(1)
+    }
+
+    /// A line of text in the middle of an area, shortened where it has no room.
+    fn centred<DB: DrawingBackend>(
+        self,
+        text: &str,
+        size: u32,
+        area: &Area<DB>,
+    ) -> Result<(), Error> {
+        let (width, height) = area.dim_in_pixel();
+        let [width, height] = [width, height].map(|s| i32::try_from(s).unwrap_or(0));
+        let style = self.text(size, Colour::BLACK);
+        let style = style.pos(Pos::new(HPos::Center, VPos::Center));
+        let text = fitting(area, text, &style, width - self.px(40))?;
+        area.draw_text(&text, &style, (width / 2, height / 2))
+            .map_err(|e| problem(&e))
     }
 
     fn panel<'a, DB: DrawingBackend + 'a>(
@@ -76,19 +116,31 @@ impl Pen {
     ) -> Result<(), Error> {
         panel.x.check()?;
         panel.y.check()?;
-        let mut chart = ChartBuilder::on(area)
-            .margin(self.px(16))
-            .margin_right(self.px(32))
+        let above = panel.heading.is_some() || panel.legend == Corner::Above;
+        let height = if above { self.px(HEADING_PX) } else { 0 };
+        let (head, area) = area.split_vertically(height);
+        if above {
+            let (width, _) = head.dim_in_pixel();
+            let right = i32::try_from(width).unwrap_or(0) - self.px(MARGIN_RIGHT_PX);
+            let left = self.px(MARGIN_PX + Y_LABELS_PX);
+            self.heading(panel, &head, (left, right))?;
+        }
+        let mut chart = ChartBuilder::on(&area)
+            .margin(self.px(MARGIN_PX))
+            .margin_top(self.px(if above { 2 } else { MARGIN_PX }))
+            .margin_right(self.px(MARGIN_RIGHT_PX))
             .x_label_area_size(self.px(78))
-            .y_label_area_size(self.px(110))
+            .y_label_area_size(self.px(Y_LABELS_PX))
             .build_cartesian_2d(panel.x.clone(), panel.y.clone())
             .map_err(|e| problem(&e))?;
         self.mesh(&mut chart, panel)?;
         for layer in &panel.layers {
             match layer {
                 Layer::Curve(curve) => self.curve(&mut chart, curve, panel)?,
-                Layer::Dots(dots) => self.dots(&mut chart, dots)?,
+                Layer::Dots(dots) => self.dots(&mut chart, dots, panel)?,
+                Layer::Band(band) => self.band(&mut chart, band, panel)?,
                 Layer::Note(note) => self.note(&mut chart, note)?,
+                Layer::Labels(notes) => self.labels(&mut chart, notes)?,
                 Layer::Span { from, to } => self.span(&mut chart, *from, *to)?,
             }
         }
@@ -107,20 +159,20 @@ impl Pen {
             .axis_desc_style(self.text(style::LABEL_PX, Colour::BLACK))
             .label_style(self.text(style::TICK_PX, Colour::BLACK))
             .axis_style(self.line(Colour::BLACK, 2))
-            .bold_line_style(Colour::GREY.0.mix(0.35).stroke_width(self.scale))
-            .light_line_style(Colour::GREY.0.mix(0.14).stroke_width(self.scale))
+            .bold_line_style(Colour::GREY.0.mix(0.35).stroke_width(self.width(1)))
+            .light_line_style(Colour::GREY.0.mix(0.14).stroke_width(self.width(1)))
             .set_all_tick_mark_size(self.px(7))
             .draw()
             .map_err(|e| problem(&e))
     }
 
-    fn stroke(self, curve: &Curve) -> ShapeStyle {
+    pub(super) fn stroke(self, curve: &Curve) -> ShapeStyle {
         match curve.stroke {
             Stroke::Solid => self.line(curve.colour, style::CURVE_PX),
-            Stroke::Dashed => self.line(curve.colour, 2),
+            Stroke::Fine | Stroke::Dashed => self.line(curve.colour, 2),
             Stroke::Broad => {
                 let pale = curve.colour.0.mix(0.4);
-                pale.stroke_width(style::BROAD_PX * self.scale)
+                pale.stroke_width(self.width(style::BROAD_PX))
             }
         }
     }
@@ -152,53 +204,6 @@ impl Pen {
         } else {
             labelled.legend(move |(x, y)| PathElement::new([(x, y), (x + sample, y)], style));
         }
-        Ok(())
-    }
-
-    fn dots<'a, DB: DrawingBackend + 'a>(
-        self,
-        chart: &mut Chart<'a, DB>,
-        dots: &Dots,
-    ) -> Result<(), Error> {
-        let size = self.px(style::DOT_PX);
-        // The rim lifts the point off the curves behind it.
-        let rim = size + self.px(2);
-        let fill = if dots.hollow {
-            self.line(dots.colour, 4)
-        } else {
-            dots.colour.0.filled()
-        };
-        let rims = dots.points.iter();
-        let rims = rims.map(|&at| Circle::new(at, rim, WHITE.filled()));
-        chart.draw_series(rims).map_err(|e| problem(&e))?;
-        let points = dots.points.iter();
-        let points = points.map(|&at| Circle::new(at, size, fill));
-        let drawn = chart.draw_series(points).map_err(|e| problem(&e))?;
-        if let Some(name) = &dots.name {
-            let middle = self.px(SAMPLE_PX) / 2;
-            let sample = move |(x, y)| Circle::new((x + middle, y), size, fill);
-            drawn.label(name.as_str()).legend(sample);
-        }
-        Ok(())
-    }
-
-    fn note<'a, DB: DrawingBackend + 'a>(
-        self,
-        chart: &mut Chart<'a, DB>,
-        note: &Note,
-    ) -> Result<(), Error> {
-        let gap = self.px(14);
-        let (horizontal, vertical, offset) = match note.side {
-            Side::Left => (HPos::Right, VPos::Center, (-gap, 0)),
-            Side::Right => (HPos::Left, VPos::Center, (gap, 0)),
-            Side::Above => (HPos::Center, VPos::Bottom, (0, -self.px(20))),
-            Side::Below => (HPos::Center, VPos::Top, (0, gap)),
-        };
-        let style = self.text(style::TICK_PX, note.colour);
-        let style = style.pos(Pos::new(horizontal, vertical));
-        let text = Text::new(note.text.clone(), offset, style);
-        let placed = EmptyElement::at(note.at) + text;
-        chart.draw_series([placed]).map_err(|e| problem(&e))?;
         Ok(())
     }
 
@@ -236,12 +241,7 @@ impl Pen {
         chart: &mut Chart<'a, DB>,
         panel: &Panel,
     ) -> Result<(), Error> {
-        let named = |layer: &Layer| match layer {
-            Layer::Curve(curve) => curve.name.is_some(),
-            Layer::Dots(dots) => dots.name.is_some(),
-            Layer::Note(_) | Layer::Span { .. } => false,
-        };
-        if !panel.layers.iter().any(named) {
+        if !panel.layers.iter().any(|layer| layer.name().is_some()) {
             return Ok(());
         }
         let position = match panel.legend {
@@ -249,6 +249,7 @@ impl Pen {
             Corner::UpperRight => SeriesLabelPosition::UpperRight,
             Corner::LowerLeft => SeriesLabelPosition::LowerLeft,
             Corner::LowerRight => SeriesLabelPosition::LowerRight,
+            Corner::Above => return Ok(()),
         };
         chart
             .configure_series_labels()
@@ -262,8 +263,15 @@ impl Pen {
     }
 }
 
+/// Height of the line above a panel.
+const HEADING_PX: u32 = 36;
+/// Around a panel with its texts.
+const MARGIN_PX: u32 = 16;
+const MARGIN_RIGHT_PX: u32 = 32;
+/// Width of the texts of a vertical axis.
+const Y_LABELS_PX: u32 = 110;
 /// Length of the sample of a line in the legend.
-const SAMPLE_PX: u32 = 44;
+pub(super) const SAMPLE_PX: u32 = 44;
 
 #[expect(
     clippy::cast_possible_truncation,

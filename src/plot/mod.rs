@@ -15,10 +15,15 @@ mod axis;
 mod bitmap;
 mod clip;
 mod draw;
+mod heading;
+mod labels;
+mod layers;
+mod marks;
 mod style;
 
 pub use axis::{Axis, Scale};
 pub use bitmap::to_png;
+pub use layers::{Band, Curve, Dots, Layer, Note, Shape, Side, Stroke};
 pub use style::Colour;
 
 use plotters::backend::SVGBackend;
@@ -26,22 +31,43 @@ use plotters::drawing::IntoDrawingArea;
 
 use crate::Error;
 
-/// A picture of one or more panels side by side.
+/// A picture of panels in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
-    /// What the picture shows.
+    /// What the picture shows. A title that is too long is shortened in its middle.
     pub title: String,
-    /// From left to right.
+    /// A line below the title.
+    pub subtitle: Option<String>,
+    /// From top to bottom.
+    pub rows: Vec<Row>,
+    /// Width and height in pixels.
+    pub size: (u32, u32),
+    /// Size of texts, lines and dots: 1 where one panel fills the picture, less where there are many.
+    pub density: f64,
+}
+
+/// Panels side by side.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Row {
+    /// Its share of the height, against those of the other rows.
+    pub height: u32,
+    /// From left to right, of one width.
     pub panels: Vec<Panel>,
 }
 
+/// Width and height in pixels of a picture with one row.
+const SIZE: (u32, u32) = (1400, 900);
+
 impl Figure {
-    /// A figure.
+    /// A figure of one row.
     #[must_use]
     pub fn new(title: impl Into<String>, panels: Vec<Panel>) -> Self {
         Self {
             title: title.into(),
-            panels,
+            subtitle: None,
+            rows: vec![Row { height: 1, panels }],
+            size: SIZE,
+            density: 1.0,
         }
     }
 }
@@ -57,6 +83,8 @@ pub struct Panel {
     pub layers: Vec<Layer>,
     /// Where the names of the layers stand.
     pub legend: Corner,
+    /// What the panel shows, above it.
+    pub heading: Option<String>,
 }
 
 impl Panel {
@@ -68,6 +96,7 @@ impl Panel {
             y,
             layers: Vec::new(),
             legend: Corner::UpperRight,
+            heading: None,
         }
     }
 
@@ -75,6 +104,14 @@ impl Panel {
     #[must_use]
     pub fn with(mut self, layer: Layer) -> Self {
         self.layers.push(layer);
+        self
+    }
+
+    /// The panel with a heading, and its legend beside that.
+    #[must_use]
+    pub fn headed(mut self, heading: impl Into<String>) -> Self {
+        self.heading = Some(heading.into());
+        self.legend = Corner::Above;
         self
     }
 
@@ -86,7 +123,7 @@ impl Panel {
     }
 }
 
-/// A corner of a panel.
+/// Where a legend stands: in a corner of its panel or above it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Corner {
     /// Upper left.
@@ -97,118 +134,9 @@ pub enum Corner {
     LowerLeft,
     /// Lower right.
     LowerRight,
-}
-
-/// Something drawn in a panel.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Layer {
-    /// A line.
-    Curve(Curve),
-    /// Separate points.
-    Dots(Dots),
-    /// A text.
-    Note(Note),
-    /// An arrow with a head at both ends: a length or a duration.
-    Span {
-        /// One end.
-        from: (f64, f64),
-        /// The other end.
-        to: (f64, f64),
-    },
-}
-
-/// How a line is drawn.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Stroke {
-    /// Solid.
-    Solid,
-    /// Solid, pale and wide: to be seen beneath a dashed line.
-    Broad,
-    /// Dashed and thin.
-    Dashed,
-}
-
-/// A line through points; parts outside the axes are left out.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
-    /// In the units of the axes.
-    pub points: Vec<(f64, f64)>,
-    /// Colour.
-    pub colour: Colour,
-    /// Stroke.
-    pub stroke: Stroke,
-    /// For the legend.
-    pub name: Option<String>,
-}
-
-impl Curve {
-    /// A solid line without a name.
-    #[must_use]
-    pub const fn new(points: Vec<(f64, f64)>, colour: Colour) -> Self {
-        Self {
-            points,
-            colour,
-            stroke: Stroke::Solid,
-            name: None,
-        }
-    }
-
-    /// The line with a name in the legend.
-    #[must_use]
-    pub fn named(mut self, name: impl Into<String>) -> Self {
-        self.name = Some(name.into());
-        self
-    }
-
-    /// The line with another stroke.
-    #[must_use]
-    pub const fn stroke(mut self, stroke: Stroke) -> Self {
-        self.stroke = stroke;
-        self
-    }
-}
-
-/// Round points with a white rim.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Dots {
-    /// In the units of the axes.
-    pub points: Vec<(f64, f64)>,
-    /// Colour.
-    pub colour: Colour,
-    /// Whether they are rings.
-    pub hollow: bool,
-    /// For the legend.
-    pub name: Option<String>,
-}
-
-/// On which side of its place a text stands.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Side {
-    /// To the left.
-    Left,
-    /// To the right.
-    Right,
-    /// Above, centred.
+    /// In one line above the panel, where it covers nothing.
     Above,
-    /// Below, centred.
-    Below,
 }
-
-/// A text in a panel.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Note {
-    /// Its place, in the units of the axes.
-    pub at: (f64, f64),
-    /// Where it stands from there.
-    pub side: Side,
-    /// What it says.
-    pub text: String,
-    /// Colour.
-    pub colour: Colour,
-}
-
-/// Width and height in pixels.
-const SIZE: (u32, u32) = (1400, 900);
 
 /// The SVG is drawn this much larger and shown smaller: its coordinates are whole numbers, on which a curve of the final
 /// size would show steps.
@@ -219,7 +147,8 @@ const FINENESS: u32 = 8;
 /// # Errors
 /// [`Error::Plot`] where an axis has no extent or the drawing fails.
 pub fn to_svg(figure: &Figure) -> Result<String, Error> {
-    let (width, height) = (SIZE.0 * FINENESS, SIZE.1 * FINENESS);
+    let size = figure.size;
+    let (width, height) = (size.0 * FINENESS, size.1 * FINENESS);
     let mut document = String::new();
     {
         let area = SVGBackend::with_string(&mut document, (width, height)).into_drawing_area();
@@ -228,6 +157,6 @@ pub fn to_svg(figure: &Figure) -> Result<String, Error> {
     }
     // The view box keeps the fine coordinates; only the size that it is shown at changes.
     let drawn = format!("width=\"{width}\" height=\"{height}\"");
-    let shown = format!("width=\"{}\" height=\"{}\"", SIZE.0, SIZE.1);
+    let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
     Ok(document.replacen(&drawn, &shown, 1))
 }

@@ -51,6 +51,10 @@ pub(super) const TICK_PX: u32 = 22;
 pub(super) const CURVE_PX: u32 = 3;
 pub(super) const BROAD_PX: u32 = 8;
 pub(super) const DOT_PX: u32 = 9;
+pub(super) const POINT_PX: u32 = 4;
+pub(super) const CROSS_PX: u32 = 5;
+/// Opacity of areas.
+pub(super) const PALE: f64 = 0.35;
 
 static REGISTERED: OnceLock<bool> = OnceLock::new();
 

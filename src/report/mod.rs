@@ -12,6 +12,9 @@ mod table;
 pub mod text;
 mod wrap;
 
+pub(crate) use table::decimals;
+pub(crate) use text::{model_name, with_error};
+
 use serde::Serialize;
 
 use crate::fit::Estimate;

@@ -45,7 +45,7 @@ fn two_digits(error: Option<f64>) -> String {
 }
 
 /// Decimals that show a positive number with two digits, at most eight.
-pub(super) fn decimals(value: f64) -> usize {
+pub(crate) fn decimals(value: f64) -> usize {
     let mut scaled = value;
     // What rounds to 10 at this many decimals has its two digits.
     (0..8)

@@ -146,7 +146,7 @@ fn model(drop: &Drop) -> Option<String> {
     .into_iter()
     .flatten()
     .collect();
-    (!terms.is_empty()).then(|| format!("{}: {}", name(&drop.model), terms.join(", ")))
+    (!terms.is_empty()).then(|| format!("{}: {}", model_name(&drop.model), terms.join(", ")))
 }
 
 /// By how much the model is better than constant e, and which others are as likely: `10.2 nats better than constant e; as
@@ -174,7 +174,7 @@ fn rivals(model: &Model) -> Option<String> {
 }
 
 /// The name of a model, with what it has because it was given: `constant e, with the contact time given`.
-fn name(model: &Model) -> String {
+pub(crate) fn model_name(model: &Model) -> String {
     let given: Vec<&str> = model
         .given
         .iter()
@@ -227,7 +227,7 @@ fn causes(budget: &Budget) -> String {
 }
 
 /// `0.9452 ± 0.0006 (95 %: 0.9440 to 0.9464)`, to the digits that the error leaves.
-fn with_error(estimate: &Estimate) -> String {
+pub(crate) fn with_error(estimate: &Estimate) -> String {
     let (Some(std), Some([low, high])) = (estimate.std_error, estimate.interval95) else {
         return format!("{:.3} (no error: a single ratio)", estimate.value);
     };
@@ -326,7 +326,7 @@ mod tests {
     fn a_model_says_what_it_has_because_it_was_given() {
         let named = |selected, given: &[&'static str]| {
             let given = given.to_vec();
-            name(&Model {
+            model_name(&Model {
                 selected,
                 given,
                 ..Model::none()

@@ -276,7 +276,7 @@ fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
 
 /// All forms can be written, times are in order and in the recording, and what is given is a number.
 fn check(report: &Report) {
-    assert!(!text::to_text(report).contains("NaN"));
+    assert!(!text::to_text(report, text::Detail::Everything).contains("NaN"));
     assert!(!csv::to_csv(report).contains("NaN"));
     assert!(json::to_json(report).is_ok());
     for drop in &report.analysis.drops {

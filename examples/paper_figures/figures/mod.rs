@@ -5,7 +5,7 @@ mod relations;
 
 use bounce_audio::Error;
 use bounce_audio::physics::BounceSeries;
-use bounce_audio::plot::{Colour, Curve, Dots, Figure, Layer, Note, Side, Stroke};
+use bounce_audio::plot::{Colour, Curve, Dots, Figure, Layer, Note, Shape, Side, Stroke};
 
 const HEIGHT_M: f64 = 0.305;
 const GRAVITY_M_PER_S2: f64 = 9.81;
@@ -46,12 +46,8 @@ fn named(points: Vec<(f64, f64)>, colour: Colour, stroke: Stroke, name: &str) ->
 
 /// A point with a name: filled for the experiment, a ring for the video.
 fn dot(at: (f64, f64), hollow: bool, name: &str) -> Layer {
-    Layer::Dots(Dots {
-        points: vec![at],
-        colour: Colour::BLACK,
-        hollow,
-        name: Some(name.to_owned()),
-    })
+    let shape = if hollow { Shape::Ring } else { Shape::Disc };
+    Layer::Dots(Dots::new(vec![at], shape, Colour::BLACK).named(name))
 }
 
 fn note(at: (f64, f64), side: Side, text: impl Into<String>, colour: Colour) -> Layer {

@@ -5,7 +5,7 @@ use bounce_audio::physics::{
     Bounce, DropSetup, FlightLaw, Impact, LinearContact, Oscillator, Rebound, ReleaseRule,
     Restitution, RestitutionLaw,
 };
-use bounce_audio::plot::{Axis, Colour, Corner, Dots, Figure, Layer, Panel, Side, Stroke};
+use bounce_audio::plot::{Axis, Colour, Corner, Dots, Figure, Layer, Panel, Shape, Side, Stroke};
 
 use super::{
     BOUNCES, CONTACT_BY_EQ20_S, CONTACT_BY_VIDEO_S, GRAVITY_M_PER_S2, HEIGHT_M, RESTITUTION,
@@ -55,12 +55,11 @@ pub(super) fn first_bounce() -> Result<Figure, Error> {
     )
     .with(curve(vec![(0.0, 0.0), (1.2, 0.0)], Colour::GREY))
     .with(curve(flights(&impacts), Colour::BLUE))
-    .with(Layer::Dots(Dots {
-        points: touch.collect(),
-        colour: Colour::BLACK,
-        hollow: false,
-        name: None,
-    }))
+    .with(Layer::Dots(Dots::new(
+        touch.collect(),
+        Shape::Disc,
+        Colour::BLACK,
+    )))
     .with(note(
         (0.249, 0.0),
         Side::Below,

@@ -2,40 +2,25 @@
 
 use bounce_audio::Error;
 use bounce_audio::physics::{Ball, Oscillator, Restitution};
+use bounce_audio::picture::{self, total_time::Point};
 use bounce_audio::plot::{Axis, Colour, Corner, Curve, Figure, Layer, Panel, Side, Stroke};
 
 use super::{
-    BOUNCES, CONTACT_BY_EQ20_S, CONTACT_BY_VIDEO_S, RESTITUTION, TOTAL_TIME_S, curve, dot, named,
-    note, series, spread,
+    BOUNCES, CONTACT_BY_EQ20_S, CONTACT_BY_VIDEO_S, GRAVITY_M_PER_S2, HEIGHT_M, RESTITUTION,
+    TOTAL_TIME_S, curve, dot, named, note, series, spread,
 };
 
 /// Figure 4: `T_total` against n by (25).
 pub(super) fn total_time() -> Result<Figure, Error> {
-    let series = series()?;
-    let mut panel = Panel::new(
-        Axis::linear("number of bounces n", 0.0, 115.0),
-        Axis::linear("total time from release to rest (s)", 0.0, 12.0),
-    )
-    .legend_at(Corner::LowerRight);
-    for (e, colour) in [0.70, 0.80, 0.85, 0.90, 0.93, 0.95]
-        .into_iter()
-        .zip(Colour::FAMILY)
-    {
-        let restitution = Restitution::new(e)?;
-        let mut points = Vec::new();
-        for n in 1..=100_u32 {
-            points.push((f64::from(n), series.total_time_s(restitution, n as usize)?));
-        }
-        let end = points.last().copied().unwrap_or_default();
-        panel = panel.with(curve(points, colour));
-        panel = panel.with(note(end, Side::Right, format!("e = {e:.2}"), colour));
-    }
-    let at = (f64::from(BOUNCES), TOTAL_TIME_S);
-    panel = panel.with(dot(at, false, "experiment: n = 70, 7.5 s"));
-    Ok(Figure::new(
-        "Fig. 4  Total time by eq. (25), h₀ = 30.5 cm",
-        vec![panel],
-    ))
+    let point = Point {
+        bounces: BOUNCES as usize,
+        total_time_s: TOTAL_TIME_S,
+        total_time_std_s: None,
+        restitution: None,
+        name: "experiment: n = 70, 7.5 s".to_owned(),
+    };
+    let title = "Fig. 4  Total time by eq. (25), h₀ = 30.5 cm";
+    picture::total_time::figure(HEIGHT_M, GRAVITY_M_PER_S2, &point, title)
 }
 
 /// Figure 5: ΔT against n by (20) and (28).
