@@ -484,3 +484,39 @@ fn a_reader_that_has_read_enough_ends_the_run() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
 }
+
+#[test]
+fn a_batch_draws_its_drops_and_a_sheet_of_each_recording() {
+    let folder = folder("plots");
+    fs::create_dir(folder.join("in")).unwrap();
+    synth(folder.join("in/steel.wav"), "steel", 1);
+    synth(folder.join("in/dead.wav"), "dead", 1);
+    let output = run(
+        &folder,
+        &["batch", "in", "--plot", "all.svg", "--plots", "sheets"],
+    );
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let all = fs::read_to_string(folder.join("all.svg")).unwrap();
+    assert!(all.contains("e of 2 drops") && all.contains("in/steel.wav"));
+    for name in ["steel.wav.svg", "dead.wav.svg"] {
+        let sheet = fs::read_to_string(folder.join("sheets").join(name)).unwrap();
+        assert!(sheet.contains("Residuals"), "{name}");
+    }
+}
+
+#[test]
+fn two_recordings_never_share_a_picture() {
+    let folder = folder("one-picture");
+    for side in ["a", "b"] {
+        fs::create_dir(folder.join(side)).unwrap();
+        synth(folder.join(side).join("steel.wav"), "steel", 1);
+    }
+    let output = run(&folder, &["batch", "a", "b", "--plots", "sheets"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = text(&output.stderr);
+    assert!(said.contains("a/steel.wav and b/steel.wav"), "{said}");
+    assert!(!folder.join("sheets").exists());
+    let output = run(&folder, &["batch", "a", "--plot", "all.jpg"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains(".svg or .png"));
+}

@@ -8,6 +8,7 @@ use bounce_audio::analysis::{Listener, Settings};
 use bounce_audio::detect::refine::Timing;
 use bounce_audio::fit::ladder::Choice;
 use bounce_audio::random::SplitMix64;
+use bounce_audio::report::labels::{Form, drops, read};
 use bounce_audio::report::{RecordingInfo, Report, SCHEMA_VERSION, SettingsInfo, csv, json, text};
 use bounce_audio::synth::presets::preset;
 use bounce_audio::synth::render;
@@ -72,6 +73,46 @@ pub(crate) fn units() -> Target {
             match one_of(random, &quantities).parse("it", &text) {
                 Ok(value) => assert!(value.is_finite()),
                 Err(error) => assert!(error.to_string().starts_with("it is '")),
+            }
+        },
+    }
+}
+
+/// Labels of all tools, and the impacts that they stand for.
+pub(crate) fn labels() -> Target {
+    Target {
+        name: "labels",
+        valid: || {
+            [
+                "0.5\t0.5\t1 heard -3.4 dB at 0.5 ±1.3e-8 s\n0.9\t0.9\t2:2 heard\n\\\t20\t40\n",
+                "0.5,1:1 heard\n0.9,inferred\n1.2,\"a, b\"\n",
+                "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n2\n<exists>\n1\n\"TextTier\"\n\"impacts\"\n0\n2\n1\n0.5\n\"1:1 heard\"\n",
+            ]
+            .map(|text| text.as_bytes().to_vec())
+            .to_vec()
+        },
+        words: &[
+            "\t",
+            ",",
+            "\"",
+            "±",
+            "at ",
+            "inferred",
+            "2:",
+            "1e300",
+            "nan",
+            "-",
+            "\n",
+            "points: size = 9999999999",
+        ],
+        run: |input, random| {
+            let form = *one_of(random, &[Form::Audacity, Form::Instants, Form::TextGrid]);
+            let Ok(labels) = read(input, form) else {
+                return;
+            };
+            if let Ok(drops) = drops(&labels, form, 1e-3) {
+                let marked = drops.iter().map(Vec::len).sum::<usize>();
+                assert!(marked <= labels.len());
             }
         },
     }

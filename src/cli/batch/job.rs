@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 use super::format::{Format, ReadBack};
 use super::inputs::Input;
 use super::options::{Given, Pattern, Table};
+use super::plots::Plots;
 use crate::Error;
 use crate::cli::listen::{Hearing, Listening, name};
 use crate::report::batch::{Digest, Found};
@@ -25,6 +26,7 @@ pub(super) enum PerFile {
 #[derive(Debug)]
 pub(super) struct Job<'a> {
     pub per_file: PerFile,
+    pub plots: Option<Plots>,
     pub inputs: Vec<Input>,
     pub listening: &'a Listening,
     pub format: Format,
@@ -71,6 +73,9 @@ impl Job<'_> {
             labels: None,
         };
         let report = listening.hear_file(path, &hearing)?;
+        if let Some(plots) = &self.plots {
+            plots.draw(path, &report)?;
+        }
         Ok(Done {
             rows: self.format.rows(&report)?,
             digest: Digest::from(&report),

@@ -5,6 +5,7 @@ mod inputs;
 mod job;
 mod options;
 mod ordered;
+mod plots;
 mod progress;
 mod rows_file;
 
@@ -18,11 +19,14 @@ use clap::{Args, value_parser};
 
 use super::Outcome;
 use super::listen::Listening;
+use super::picture::Target as Picture;
 use crate::Error;
+use crate::picture::batch::sheet;
 use crate::report::batch::{Digest, Found, summary};
 use format::{Format, ReadBack};
 use job::{Job, PerFile};
 use options::{Pattern, Table};
+use plots::Plots;
 use progress::Progress;
 use rows_file::{Resumed, RowsFile, partial};
 
@@ -69,15 +73,28 @@ pub(super) struct Arguments {
     /// Read {height}, {mass} and {diameter}, with units, from the names; any other word in braces stands for anything
     #[arg(long, conflicts_with = "options")]
     pattern: Option<Pattern>,
+    /// Draw e of each drop with its interval, and a histogram
+    #[arg(long, value_name = "OUT.svg|png")]
+    plot: Option<PathBuf>,
+    /// Draw a sheet for each recording into this folder, which is made: NAME.wav.svg
+    #[arg(long, value_name = "DIR")]
+    plots: Option<PathBuf>,
     #[command(flatten)]
     listening: Listening,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     arguments.listening.settings().check()?;
+    let plot = arguments.plot.as_deref().map(Picture::new).transpose()?;
+    let inputs = inputs::gather(&arguments.paths)?;
     let job = Job {
         per_file: per_file(arguments)?,
-        inputs: inputs::gather(&arguments.paths)?,
+        plots: arguments
+            .plots
+            .as_deref()
+            .map(|d| Plots::new(d, &inputs))
+            .transpose()?,
+        inputs,
         listening: &arguments.listening,
         format: arguments.format,
     };
@@ -103,6 +120,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     progress.end();
     done.and_then(|()| target.finish())?;
     say(&summary(&digests));
+    if let Some(plot) = plot {
+        plot.draw(&sheet(&plots::rows(&digests)))?;
+    }
     let found = |d: &Digest| matches!(d.found, Found::Drops(_));
     Ok(Outcome {
         output: String::new(),
