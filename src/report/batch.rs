@@ -256,7 +256,7 @@ mod tests {
             "11 recordings, 10 drops; without a drop: 1; failed: 1\n",
             "more than they claim",
             "outliers two\\n.wav drop 2: e 0.9500",
-            "Without them:\n  mean e   0.9004",
+            "Without them:\n  mean e   0.90039 ± 0.00033",
             "no more than they claim",
         ] {
             assert!(said.contains(part), "{part} is missing in\n{said}");
