@@ -180,7 +180,7 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         .map(|(i, (rung, fit))| Candidate {
             model: rung.name,
             gain_nats: gain(i),
-            restitution: fit.ln_restitution().0.exp(),
+            restitution: fit.ln_restitution().exp(),
         })
         .collect();
     let selected = fits[best].0;
@@ -193,14 +193,7 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let highest = (0..fits.len()).map(gain).fold(f64::NEG_INFINITY, f64::max);
     let rivals: Vec<Rival> = (0..fits.len())
         .filter(|&i| i == best || gain(i) > highest - ALIKE)
-        .map(|i| {
-            let (ln_restitution, std) = fits[i].1.ln_restitution();
-            Rival {
-                weight: (gain(i) - gain(best)).exp(),
-                ln_restitution,
-                std,
-            }
-        })
+        .filter_map(|i| fits[i].1.rival((gain(i) - gain(best)).exp()))
         .collect();
     let (_, fit) = fits.into_iter().nth(best)?;
     Some(Climb {

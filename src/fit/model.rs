@@ -73,10 +73,9 @@ impl Fit {
     ///
     /// # Formula
     /// ```text
-    /// σ² = Σ w_k·[(ln e_k − ln e)² + σ_k²],   interval: where Σ w_k·Φ((x − ln e_k)/(r·σ_k)) is 0.025 and 0.975
+    /// σ² = Σ w_k·[(ln e_k − ln e)² + σ_k²],   interval: where Σ w_k·Φ(1.96·(x − ln e_k)/r_k) is 0.025 and 0.975
     /// ```
-    /// w are the odds of the models, together 1; r is by how much this one's own interval is longer than a normal
-    /// distribution's, for its tails are Student's.
+    /// w are the odds of the models, together 1; r_k is the reach of a model's own interval on the side of x.
     #[must_use]
     pub(super) fn among(mut self, models: &[Rival]) -> Self {
         let Parameter {
@@ -90,11 +89,15 @@ impl Fit {
                 models.iter().map(|m| m.weight * of(m)).sum::<f64>() / total
             };
             let variance = mean_of(&|m| (m.ln_restitution - *value).powi(2) + m.std * m.std);
-            let longer = (ends[1] - ends[0]) / (2.0 * NORMAL95 * *std);
             let normal = Normal::standard();
-            let below =
-                |x: f64| mean_of(&|m| normal.cdf((x - m.ln_restitution) / (longer * m.std)));
-            let reach = FAR * variance.sqrt() * longer.max(1.0);
+            let below = |x: f64| {
+                mean_of(&|m| {
+                    let reach = m.interval95[usize::from(x > m.ln_restitution)] - m.ln_restitution;
+                    normal.cdf(NORMAL95 * (x - m.ln_restitution) / reach.abs())
+                })
+            };
+            let widest = |m: &Rival| m.interval95.map(|end| (end - *value).abs());
+            let reach = FAR * models.iter().flat_map(widest).fold(0.0, f64::max);
             *ends = [0.025, 0.975].map(|p| {
                 let (mut low, mut high) = (*value - reach, *value + reach);
                 for _ in 0..HALVINGS {
@@ -124,20 +127,21 @@ impl Fit {
     }
 }
 
-/// A model that may be the right one: its odds, its ln e and the standard error of that.
+/// A model that may be the right one: its odds, its ln e, the standard error and the interval of that.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Rival {
     pub weight: f64,
     pub ln_restitution: f64,
     pub std: f64,
+    pub interval95: [f64; 2],
 }
 
 /// Standard deviations of a normal distribution within which 95 % lie.
 const NORMAL95: f64 = 1.959_964;
-/// No more than 1 in 100 of a mixture lies beyond so many of its standard deviations (Chebyshev).
-const FAR: f64 = 10.0;
-/// Twenty standard deviations halved so often leave a hundred-thousandth of one.
-const HALVINGS: usize = 21;
+/// The ends of a mixture lie within the widest of its intervals; so many reaches are looked through all the same.
+const FAR: f64 = 2.0;
+/// Four reaches halved so often leave a hundred-thousandth of one.
+const HALVINGS: usize = 19;
 
 /// Fits a model. None for fewer than three impacts, a flight that is not longer than the contact, or parameters that run
 /// away.
@@ -183,9 +187,20 @@ impl<'a> Fitted<'a> {
         self.posterior.ln_evidence
     }
 
-    /// Mean and standard deviation of ln e.
-    pub(super) fn ln_restitution(&self) -> (f64, f64) {
-        self.posterior.moments(0)
+    /// The mean of ln e.
+    pub(super) fn ln_restitution(&self) -> f64 {
+        self.posterior.moments(0).0
+    }
+
+    /// The fit as one of several, with its odds; none where it has no interval.
+    pub(super) fn rival(&self, weight: f64) -> Option<Rival> {
+        let ln = self.parameter(0, 0.0);
+        Some(Rival {
+            weight,
+            ln_restitution: ln.value,
+            std: ln.std?,
+            interval95: ln.interval95?,
+        })
     }
 
     pub(super) fn summary(self) -> Fit {
