@@ -253,13 +253,7 @@ fn a_full_device_is_told_and_stays_a_device() {
 fn a_recording_does_not_go_into_a_pipe() {
     let folder = folder("pipe");
     let line = "synth --preset dead -o /dev/stdout";
-    let output = run(&folder, line);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(
-        errors(&output).contains("to a file and not to a pipe"),
-        "{}",
-        errors(&output)
-    );
+    assert_refused(&run(&folder, line), line, "to a file and not to a pipe");
 }
 
 /// Whoever closes a pipe has read enough: the status is that of what was found.

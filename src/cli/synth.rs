@@ -1,7 +1,7 @@
 //! `bounce-audio synth`: recordings made from the model, with their truth beside them.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, ErrorKind, Write};
+use std::io::{self, BufWriter, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -135,6 +135,11 @@ fn write(path: &Path, made: &Synthetic) -> Result<PathBuf, Error> {
 }
 
 fn write_wav(file: &mut File, made: &Synthetic) -> Result<(), Error> {
+    // Asked before anything is written, which could not be taken back.
+    if file.stream_position().is_err() {
+        let problem = "a recording is written to a file and not to a pipe: its length comes first, and is known last";
+        return Err(Error::refused(problem));
+    }
     let encoding = made.truth.parameters.recorder.encoding;
     let channels: Vec<&Vec<f32>> = [&made.samples]
         .into_iter()
@@ -173,9 +178,6 @@ fn whole(x: f32, encoding: Encoding) -> i32 {
 
 fn from_hound(error: hound::Error) -> Error {
     match error {
-        hound::Error::IoError(e) if e.kind() == ErrorKind::NotSeekable => Error::refused(
-            "a recording is written to a file and not to a pipe: its length comes first, and is known last",
-        ),
         hound::Error::IoError(e) => e.into(),
         other => io::Error::new(ErrorKind::InvalidData, other.to_string()).into(),
     }
