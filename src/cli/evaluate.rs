@@ -7,7 +7,7 @@ use std::time::Instant;
 use clap::{Args, ValueEnum};
 
 use super::picture::Target;
-use super::{Outcome, limit};
+use super::{Outcome, limit, output};
 use crate::Error;
 use crate::analysis::{Settings, analyze_clearest};
 use crate::detect::refine::Timing;
@@ -196,12 +196,12 @@ fn hold(arguments: &Arguments, evaluation: &Evaluation) -> Result<Vec<String>, E
         Thresholds::from_toml(&text).map_err(|e| e.in_file(path))
     };
     if let Some(path) = &arguments.tighten {
-        let old = if path.exists() {
+        let old = if path.is_file() {
             read(path)?
         } else {
             Thresholds::default()
         };
-        fs::write(path, old.tightened(held())).map_err(|e| Error::from(e).in_file(path))?;
+        output::write(path, old.tightened(held()).as_bytes())?;
     }
     match &arguments.check {
         Some(path) => Ok(read(path)?.complaints(held())),

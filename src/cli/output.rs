@@ -1,8 +1,8 @@
 //! Files that are whole or not there: written beside their place, then renamed.
 
-use std::fs;
-use std::io;
-use std::path::Path;
+use std::fs::{self, File, Metadata};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
 
 use crate::Error;
 
@@ -11,29 +11,107 @@ use crate::Error;
 /// # Errors
 /// [`Error::InFile`] naming the file that could not be written; then what was there before still is.
 pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    let is_other = fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir());
-    let written = if is_other {
-        fs::write(path, bytes)
-    } else {
-        replace(path, bytes)
-    };
-    written.map_err(|e| Error::from(e).in_file(path))
+    Whole::fill(path, |file| Ok(file.write_all(bytes)?))?.put()
 }
 
-fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // A link stays a link: what it leads to is replaced.
-    let place = fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-    if place.is_dir() {
-        return Err(io::Error::from(io::ErrorKind::IsADirectory));
+/// A file with all that it will hold, which is not in its place yet. Dropped, it was never there.
+#[derive(Debug)]
+pub(super) struct Whole {
+    path: PathBuf,
+    /// What to rename, and to what; none for what is no file.
+    rename: Option<(PathBuf, PathBuf)>,
+}
+
+impl Whole {
+    /// Writes the file beside its place, piece by piece.
+    ///
+    /// # Errors
+    /// [`Error::InFile`] naming the file that could not be written.
+    pub(super) fn fill(
+        path: &Path,
+        write: impl FnOnce(&mut File) -> Result<(), Error>,
+    ) -> Result<Self, Error> {
+        let mut whole = Self {
+            path: path.to_path_buf(),
+            rename: None,
+        };
+        let written = whole.write(write);
+        // If this fails, `whole` is dropped, and the partial file with it.
+        written.map_err(|e| e.in_file(path)).map(|()| whole)
     }
-    let mut name = place.file_name().unwrap_or_default().to_os_string();
-    name.push(format!(".{}.partial", std::process::id()));
-    let partial = place.with_file_name(name);
-    let done = fs::write(&partial, bytes).and_then(|()| fs::rename(&partial, &place));
-    done.inspect_err(|_| {
-        // The first error is what counts; that this file may stay behind adds nothing.
-        drop(fs::remove_file(&partial));
-    })
+
+    fn write(&mut self, write: impl FnOnce(&mut File) -> Result<(), Error>) -> Result<(), Error> {
+        let there = fs::metadata(&self.path).ok();
+        if there.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
+            return write(&mut File::create(&self.path)?);
+        }
+        if let Some(there) = &there {
+            check_replaceable(there)?;
+        }
+        // A link stays a link: what it leads to is replaced.
+        let place = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
+        let mut name = place.file_name().unwrap_or_default().to_os_string();
+        name.push(format!(".{}.partial", std::process::id()));
+        let partial = place.with_file_name(name);
+        let mut file = File::create(&partial)?;
+        self.rename = Some((partial, place));
+        write(&mut file)?;
+        if let Some(there) = there {
+            file.set_permissions(there.permissions())?;
+        }
+        // Some disks say only now that they are full; and after a power cut the name must not come before the bytes.
+        Ok(file.sync_all()?)
+    }
+
+    /// Removes what is in the file's place.
+    ///
+    /// # Errors
+    /// [`Error::InFile`] if that cannot be.
+    pub(super) fn clear(&self) -> Result<(), Error> {
+        match self
+            .rename
+            .as_ref()
+            .map(|(_, place)| fs::remove_file(place))
+        {
+            Some(Err(e)) if e.kind() != io::ErrorKind::NotFound => {
+                Err(Error::from(e).in_file(&self.path))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Puts the file in its place.
+    ///
+    /// # Errors
+    /// [`Error::InFile`] if that cannot be; then what was there before still is.
+    pub(super) fn put(mut self) -> Result<(), Error> {
+        let Some((partial, place)) = &self.rename else {
+            return Ok(());
+        };
+        fs::rename(partial, place).map_err(|e| Error::from(e).in_file(&self.path))?;
+        self.rename = None;
+        Ok(())
+    }
+}
+
+impl Drop for Whole {
+    fn drop(&mut self) {
+        if let Some((partial, _)) = &self.rename {
+            // The first error is what counts; that this file may stay behind adds nothing.
+            drop(fs::remove_file(partial));
+        }
+    }
+}
+
+/// A rename would take the place of a file even where writing to it is not allowed.
+fn check_replaceable(there: &Metadata) -> io::Result<()> {
+    if there.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if there.permissions().readonly() {
+        return Err(io::ErrorKind::PermissionDenied.into());
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -50,6 +128,13 @@ mod tests {
         assert_eq!(fs::read(&file).unwrap(), b"new");
         let error = write(&folder.join("taken.svg"), b"x").unwrap_err();
         assert!(error.to_string().contains("taken.svg"), "{error}");
+        let error = Whole::fill(&file, |file| {
+            file.write_all(b"half")?;
+            Err(Error::refused("no more"))
+        });
+        assert!(error.is_err());
+        drop(Whole::fill(&file, |file| Ok(file.write_all(b"whole")?)).unwrap());
+        assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
         fs::remove_dir_all(folder).unwrap();
     }

@@ -1,12 +1,13 @@
 //! `bounce-audio synth`: recordings made from the model, with their truth beside them.
 
-use std::fs;
-use std::io::{self, ErrorKind};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, ErrorKind, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::Outcome;
+use super::output::Whole;
 use crate::Error;
 use crate::synth::presets::{self, preset};
 use crate::synth::recorder::Encoding;
@@ -122,14 +123,23 @@ fn missing(argument: &'static str, expected: &'static str) -> Error {
 
 /// Writes a recording and its truth; gives where the truth is.
 fn write(path: &Path, made: &Synthetic) -> Result<PathBuf, Error> {
-    write_wav(path, made).map_err(|e| e.in_file(path))?;
     let truth_path = path.with_extension("truth.json");
-    let truth = serde_json::to_string_pretty(&made.truth).map_err(io::Error::from)? + "\n";
-    fs::write(&truth_path, truth).map_err(|e| Error::from(e).in_file(&truth_path))?;
+    let text = serde_json::to_string_pretty(&made.truth).map_err(io::Error::from)? + "\n";
+    let recording = Whole::fill(path, |file| write_wav(file, made))?;
+    let truth = Whole::fill(&truth_path, |file| Ok(file.write_all(text.as_bytes())?))?;
+    // Interrupted here, a recording may be without truth, but never beside the truth of another.
+    truth.clear()?;
+    recording.put()?;
+    truth.put()?;
     Ok(truth_path)
 }
 
-fn write_wav(path: &Path, made: &Synthetic) -> Result<(), Error> {
+fn write_wav(file: &mut File, made: &Synthetic) -> Result<(), Error> {
+    // Asked before anything is written, which could not be taken back.
+    if file.stream_position().is_err() {
+        let problem = "a recording is written to a file and not to a pipe: its length comes first, and is known last";
+        return Err(Error::refused(problem));
+    }
     let encoding = made.truth.parameters.recorder.encoding;
     let channels: Vec<&Vec<f32>> = [&made.samples]
         .into_iter()
@@ -144,7 +154,7 @@ fn write_wav(path: &Path, made: &Synthetic) -> Result<(), Error> {
             _ => hound::SampleFormat::Int,
         },
     };
-    let mut writer = hound::WavWriter::create(path, spec).map_err(from_hound)?;
+    let mut writer = hound::WavWriter::new(BufWriter::new(file), spec).map_err(from_hound)?;
     for frame in 0..made.samples.len() {
         for channel in &channels {
             match encoding {

@@ -28,7 +28,7 @@ use job::{Job, PerFile};
 use options::{Pattern, Table};
 use plots::Plots;
 use progress::Progress;
-use rows_file::{Resumed, RowsFile, partial};
+use rows_file::{Resumed, RowsFile, check_is_file, partial};
 
 /// Analyze many recordings: files, and folders with all that is in them.
 ///
@@ -170,6 +170,7 @@ impl Target {
         };
         for written in [path, &partial(path)] {
             job.spare(written)?;
+            check_is_file(written)?;
         }
         if !arguments.resume {
             return Ok((

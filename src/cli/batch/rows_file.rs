@@ -126,6 +126,15 @@ impl RowsFile {
     }
 }
 
+/// A folder cannot be replaced by rows, and a pipe or device must not be.
+pub(super) fn check_is_file(path: &Path) -> Result<(), Error> {
+    if fs::metadata(path).is_ok_and(|m| !m.is_file()) {
+        let problem = "it is not a file: rows go into a file, or without -o to standard output";
+        return Err(Error::refused(problem).in_file(path));
+    }
+    Ok(())
+}
+
 /// `OUT.partial`.
 pub(super) fn partial(path: &Path) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
