@@ -75,7 +75,7 @@ impl Fit {
     /// ```text
     /// σ² = Σ w_k·[(ln e_k − ln e)² + σ_k²],   interval: where Σ w_k·Φ(1.96·(x − ln e_k)/r_k) is 0.025 and 0.975
     /// ```
-    /// w are the odds of the models, together 1; r_k is the reach of a model's own interval on the side of x.
+    /// w are the odds of the models, together 1; `r_k` is the reach of a model's own interval on the side of x.
     #[must_use]
     pub(super) fn among(mut self, models: &[Rival]) -> Self {
         let Parameter {
