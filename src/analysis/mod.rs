@@ -22,7 +22,7 @@ use crate::Error;
 use crate::detect::refine::Timing;
 use crate::detect::{self, Candidate};
 use crate::fit::ladder;
-use crate::report::{Analysis, Rejected};
+use crate::report::{Analysis, Rejected, SettingsInfo};
 use crate::sequence::{self, Event, Reason};
 use crate::units::{real, samples_in};
 
@@ -76,6 +76,23 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// What a document says of them.
+    #[must_use]
+    pub const fn info(&self) -> SettingsInfo {
+        SettingsInfo {
+            height_m: self.height_m,
+            height_std_m: self.height_std_m,
+            gravity_m_per_s2: self.gravity_m_per_s2,
+            mass_kg: self.mass_kg,
+            diameter_m: self.diameter_m,
+            contact_time_s: self.contact_time_s,
+            model: self.model,
+            start_s: self.start_s,
+            end_s: self.end_s,
+            timing: self.timing,
+        }
+    }
+
     /// Whether the settings mean something, whatever the recording. Ranges reach far beyond any ball, and stay where no
     /// product of settings leaves those of the physics.
     ///

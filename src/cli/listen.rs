@@ -12,7 +12,7 @@ use crate::Error;
 use crate::analysis::{Listener, Settings, analyze_labelled};
 use crate::detect::refine::Timing;
 use crate::fit::ladder::Choice;
-use crate::report::{self, RecordingInfo, Report, SettingsInfo};
+use crate::report::{self, RecordingInfo, Report};
 use crate::wav::Stream;
 
 /// What is known beforehand and how to listen.
@@ -185,18 +185,7 @@ impl Listening {
                 duration_s: ending.duration_s,
                 encoding,
             },
-            settings: SettingsInfo {
-                height_m: settings.height_m,
-                height_std_m: settings.height_std_m,
-                gravity_m_per_s2: settings.gravity_m_per_s2,
-                mass_kg: settings.mass_kg,
-                diameter_m: settings.diameter_m,
-                contact_time_s: settings.contact_time_s,
-                model: settings.model,
-                start_s: settings.start_s,
-                end_s: settings.end_s,
-                timing: settings.timing,
-            },
+            settings: settings.info(),
             analysis,
         })
     }

@@ -9,7 +9,7 @@ use bounce_audio::detect::refine::Timing;
 use bounce_audio::fit::ladder::Choice;
 use bounce_audio::random::SplitMix64;
 use bounce_audio::report::labels::{Form, drops, read};
-use bounce_audio::report::{RecordingInfo, Report, SCHEMA_VERSION, SettingsInfo, csv, json, text};
+use bounce_audio::report::{RecordingInfo, Report, SCHEMA_VERSION, csv, json, text};
 use bounce_audio::synth::presets::preset;
 use bounce_audio::synth::render;
 use bounce_audio::synth::scene::Scene;
@@ -299,18 +299,7 @@ fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
             duration_s: ending.duration_s,
             encoding: container.encoding(),
         },
-        settings: SettingsInfo {
-            height_m: settings.height_m,
-            height_std_m: settings.height_std_m,
-            gravity_m_per_s2: settings.gravity_m_per_s2,
-            mass_kg: settings.mass_kg,
-            diameter_m: settings.diameter_m,
-            contact_time_s: settings.contact_time_s,
-            model: settings.model,
-            start_s: settings.start_s,
-            end_s: settings.end_s,
-            timing: settings.timing,
-        },
+        settings: settings.info(),
         analysis,
     })
 }

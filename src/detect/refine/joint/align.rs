@@ -1,7 +1,8 @@
 //! The first alignment: from the loudest impact along the drop, each impact matched with those next to it.
 
+use super::average::smoothed;
 use super::settle::best;
-use super::template::{Template, smoothed};
+use super::template::Template;
 use super::{BEFORE_S, Impact, Joint, LONGEST_S};
 use crate::detect::refine::interpolate::{KERNEL, shifted};
 use crate::detect::voice::Correlator;

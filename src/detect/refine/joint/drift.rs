@@ -1,7 +1,7 @@
 //! Slow impacts last longer than fast ones, and their sound with them; its beginning does not.
 
+use super::average::solve;
 use super::settle::Normal;
-use super::template::solve;
 use super::{Impact, Joint};
 use crate::detect::refine::interpolate::{KERNEL, shifted, slope};
 use crate::units::{real, samples_in};

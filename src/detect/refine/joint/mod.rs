@@ -14,6 +14,7 @@
 //! with `u = (v/v₁)^(−1/5)` (Hertz) are used in that case alone.
 
 mod align;
+mod average;
 mod drift;
 mod settle;
 mod spread;

@@ -1,7 +1,8 @@
 //! Times and template in turn.
 
+use super::average::smoothed;
 use super::spread::likenesses;
-use super::template::{Sample, smoothed};
+use super::template::Sample;
 use super::{Joint, ROUNDS, SEARCHES};
 use crate::detect::refine::interpolate::{KERNEL, maximum, shifted};
 use crate::detect::voice::Correlator;
