@@ -16,21 +16,29 @@ pub fn interpolated(values: &[f64], position: f64) -> f64 {
 #[must_use]
 pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
     let (first, kernel) = kernel(position);
+    if position == position.floor() {
+        // At a sample the kernel is 1 there and 0 at all others.
+        return padded(samples, first + KERNEL.cast_signed() - 1, length);
+    }
     let needed = length + kernel.len() - 1;
     let inside = usize::try_from(first)
         .ok()
         .and_then(|from| samples.get(from..from.checked_add(needed)?));
-    if let Some(inside) = inside {
-        return correlated(inside, &kernel);
+    match inside {
+        Some(inside) => correlated(inside, &kernel),
+        None => correlated(&padded(samples, first, needed), &kernel),
     }
-    // At the ends of the samples there are zeros.
-    let skip = usize::try_from(-first).unwrap_or(0).min(needed);
+}
+
+/// `length` samples from an index on; zero where there are none.
+fn padded(samples: &[f64], first: isize, length: usize) -> Vec<f64> {
+    let skip = usize::try_from(-first).unwrap_or(0).min(length);
     let from = usize::try_from(first).unwrap_or(0).min(samples.len());
-    let mut padded = vec![0.0; needed];
+    let mut padded = vec![0.0; length];
     for (y, x) in padded[skip..].iter_mut().zip(&samples[from..]) {
         *y = *x;
     }
-    correlated(&padded, &kernel)
+    padded
 }
 
 /// Outputs that are computed side by side, in the machine's vectors.

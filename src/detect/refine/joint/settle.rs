@@ -170,14 +170,13 @@ impl Joint {
 
     /// Variance at samples from a position on: noise, and the misfit of all impacts, or of all but one.
     fn noise(&self, begin: f64, length: usize, without: Option<usize>) -> Vec<f64> {
+        let mut noise = vec![UNKNOWN; length];
         let first = begin.round();
-        let mut noise: Vec<f64> = (0..length)
-            .map(|k| {
-                let at = first + real(k);
-                let inside = at >= 0.0 && at < real(self.sound.len());
-                if inside { 1.0 } else { UNKNOWN }
-            })
-            .collect();
+        let (skip, from) = (samples_in(-first, 1.0), samples_in(first, 1.0));
+        let recorded = self.sound.len().saturating_sub(from);
+        for n in noise.iter_mut().skip(skip).take(recorded) {
+            *n = 1.0;
+        }
         for (j, other) in self.impacts.iter().enumerate() {
             let offset = (begin - self.begin(j)).round();
             let misfit = &self.template.misfit;
