@@ -24,7 +24,7 @@ pub(super) struct LabelArguments {
     #[arg(long, value_name = "LABELS", conflicts_with_all = ["start", "end", "timing"])]
     impacts: Option<PathBuf>,
     /// Standard error of the time of a label that was moved or set by hand
-    #[arg(long, value_parser = time, default_value = "1ms", requires = "impacts", allow_negative_numbers = true)]
+    #[arg(long, value_parser = time, default_value = "1ms", requires = "impacts", allow_hyphen_values = true)]
     label_error: f64,
 }
 

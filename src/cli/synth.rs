@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     #[arg(long, conflicts_with = "scene")]
     preset: Option<String>,
     /// Seed of the random numbers: the same seed makes the same recording
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true)]
     seed: u64,
     /// The WAV file to write; NAME.truth.json is written beside it
     #[arg(short, long, value_name = "OUT.wav")]
@@ -42,7 +42,12 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "preset", "output"])]
     suite: Option<PathBuf>,
     /// How many seeds, from 1 up
-    #[arg(long, default_value_t = 3, requires = "suite")]
+    #[arg(
+        long,
+        default_value_t = 3,
+        requires = "suite",
+        allow_hyphen_values = true
+    )]
     seeds: u64,
 }
 

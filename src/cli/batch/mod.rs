@@ -53,7 +53,7 @@ pub(super) struct Arguments {
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// How many recordings to listen to at once [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..), allow_hyphen_values = true)]
     jobs: Option<u16>,
     /// Form of the rows
     #[arg(long, value_enum, default_value_t = Format::Csv)]
