@@ -130,8 +130,15 @@ fn missing(argument: &'static str, expected: &'static str) -> Error {
 fn write(path: &Path, made: &Synthetic) -> Result<PathBuf, Error> {
     let truth_path = path.with_extension("truth.json");
     let text = serde_json::to_string_pretty(&made.truth).map_err(io::Error::from)? + "\n";
-    let recording = Whole::fill(path, |file| write_wav(file, made))?;
-    let truth = Whole::fill(&truth_path, |file| Ok(file.write_all(text.as_bytes())?))?;
+    if fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() > 0) && !truth_path.exists() {
+        let problem = "it is there, without a .truth.json beside it, so it is not one that synth made: choose another \
+                       name, or delete it";
+        return Err(Error::refused(problem).in_file(path));
+    }
+    let recording = Whole::fill(path, b"RIFF", |file| write_wav(file, made))?;
+    let truth = Whole::fill(&truth_path, b"{", |file| {
+        Ok(file.write_all(text.as_bytes())?)
+    })?;
     // Interrupted here, a recording may be without truth, but never beside the truth of another.
     truth.clear()?;
     recording.put()?;
