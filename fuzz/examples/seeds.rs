@@ -1,0 +1,15 @@
+//! Writes the valid inputs of each target into `corpus/TARGET`, to begin from.
+
+use std::fs;
+use std::path::Path;
+
+fn main() -> std::io::Result<()> {
+    for target in bounce_audio_fuzz::targets::all() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target.name);
+        fs::create_dir_all(&folder)?;
+        for (number, input) in (target.valid)().iter().enumerate() {
+            fs::write(folder.join(format!("valid-{number}")), input)?;
+        }
+    }
+    Ok(())
+}
