@@ -183,7 +183,9 @@ fn fixtures() -> PathBuf {
 }
 
 fn variants() -> Vec<Vec<u8>> {
-    let files = fs::read_dir(fixtures().join("wav-variants")).unwrap().map(|f| f.unwrap().path());
+    let files = fs::read_dir(fixtures().join("wav-variants"))
+        .unwrap()
+        .map(|f| f.unwrap().path());
     let mut files: Vec<_> = files
         .filter(|f| f.extension().is_some_and(|e| e == "wav"))
         .collect();
