@@ -4,10 +4,12 @@ use std::fs;
 use std::path::Path;
 
 fn main() -> std::io::Result<()> {
-    for target in bounce_audio_fuzz::targets::all() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus").join(target.name);
+    for (name, inputs) in bounce_audio_fuzz::seeds() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+            .join("corpus")
+            .join(name);
         fs::create_dir_all(&folder)?;
-        for (number, input) in (target.valid)().iter().enumerate() {
+        for (number, input) in inputs.iter().enumerate() {
             fs::write(folder.join(format!("valid-{number}")), input)?;
         }
     }

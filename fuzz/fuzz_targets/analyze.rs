@@ -1,3 +1,3 @@
 #![no_main]
 
-libfuzzer_sys::fuzz_target!(|input: &[u8]| bounce_audio_fuzz::run(bounce_audio_fuzz::targets::analyze(), input));
+libfuzzer_sys::fuzz_target!(|input: &[u8]| bounce_audio_fuzz::run("analyze", input));

@@ -3,15 +3,23 @@
 #[path = "../../tests/fuzz/choose.rs"]
 mod choose;
 #[path = "../../tests/fuzz/targets.rs"]
-pub mod targets;
+#[allow(dead_code, reason = "libFuzzer changes inputs by itself")]
+mod targets;
 
 use bounce_audio::random::SplitMix64;
-use targets::Target;
 
-/// Runs a target; the random numbers that it needs beside follow from the input.
-pub fn run(target: Target, input: &[u8]) {
+/// Runs a target by its name. The random numbers that it needs beside follow from the input.
+pub fn run(name: &str, input: &[u8]) {
     let seed = input.iter().fold(0, |seed: u64, &byte| {
         seed.wrapping_mul(0x100_0000_01B3) ^ u64::from(byte)
     });
+    let target = targets::all().into_iter().find(|t| t.name == name);
+    let target = target.expect("the name of a target");
     (target.run)(input, &mut SplitMix64::new(seed));
+}
+
+/// The names of the targets, each with valid inputs to begin from.
+pub fn seeds() -> Vec<(&'static str, Vec<Vec<u8>>)> {
+    let targets = targets::all().into_iter();
+    targets.map(|t| (t.name, (t.valid)())).collect()
 }

@@ -135,7 +135,7 @@ impl Drop for Whole {
 }
 
 /// A rename would take the place of a file even where writing to it is not allowed.
-fn check_replaceable(there: &Metadata) -> io::Result<()> {
+pub(super) fn check_replaceable(there: &Metadata) -> io::Result<()> {
     if there.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }

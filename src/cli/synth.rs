@@ -91,11 +91,12 @@ fn make_suite(folder: &Path, seeds: u64) -> Result<String, Error> {
 }
 
 fn make_one(arguments: &Arguments) -> Result<String, Error> {
-    let made = render(&scene(arguments)?, arguments.seed)?;
     let path = arguments
         .output
         .as_ref()
         .ok_or_else(|| missing("--output", "a WAV file to write"))?;
+    check_ending(path)?;
+    let made = render(&scene(arguments)?, arguments.seed)?;
     let truth_path = write(path, &made)?;
     let impacts: usize = made.truth.drops.iter().map(|d| d.impacts_s.len()).sum();
     Ok(format!(
@@ -105,6 +106,21 @@ fn make_one(arguments: &Arguments) -> Result<String, Error> {
         made.truth.drops.len(),
         truth_path.display(),
     ))
+}
+
+/// Another ending would have the truth of `NAME.wav` for its own. What cannot be written to anyway says so itself.
+fn check_ending(path: &Path) -> Result<(), Error> {
+    let ends = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("wav"));
+    if ends || fs::metadata(path).is_ok_and(|m| !m.is_file()) {
+        return Ok(());
+    }
+    Err(Error::Argument {
+        argument: "--output",
+        got: format!("'{}'", path.display()),
+        expected: "a name that ends in .wav",
+    })
 }
 
 fn scene(arguments: &Arguments) -> Result<Scene, Error> {

@@ -124,7 +124,7 @@ const FAULTS: [Fault; 13] = [
 ];
 
 /// What would write over something that is read, or two results into one place.
-const CLASHES: [&str; 11] = [
+const CLASHES: [&str; 12] = [
     "analyze copy.svg --plot copy.svg",
     "analyze copy.txt --labels copy.txt",
     "analyze copy.txt --labels copy.txt --force",
@@ -136,6 +136,7 @@ const CLASHES: [&str; 11] = [
     "batch drop.wav -o new.svg --plot new.svg",
     "batch drop.wav --plots sheets --plot sheets/drop.wav.svg",
     "synth scene.toml -o scene.toml",
+    "synth scene.toml -o drop",
 ];
 
 /// What goes to standard output, and the status if all of it is read.

@@ -19,24 +19,24 @@ use bounce_audio::wav::{self, Stream};
 use super::choose::one_of;
 
 /// Something that reads what others wrote.
-pub struct Target {
+pub(crate) struct Target {
     /// Its name.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// Valid input, to be mutated.
-    pub valid: fn() -> Vec<Vec<u8>>,
+    pub(crate) valid: fn() -> Vec<Vec<u8>>,
     /// Words that are put into it.
-    pub words: &'static [&'static str],
+    pub(crate) words: &'static [&'static str],
     /// Reads an input and checks what came of it; random numbers make what else it needs.
-    pub run: fn(&[u8], &mut SplitMix64),
+    pub(crate) run: fn(&[u8], &mut SplitMix64),
 }
 
 /// All of them.
-pub fn all() -> [Target; 5] {
+pub(crate) fn all() -> [Target; 5] {
     [walk(), units(), labels(), scene(), analyze()]
 }
 
 /// The walk over the chunks and all decoders.
-pub fn walk() -> Target {
+pub(crate) fn walk() -> Target {
     Target {
         name: "walk",
         valid: variants,
@@ -54,7 +54,7 @@ pub fn walk() -> Target {
 }
 
 /// Numbers with units.
-pub fn units() -> Target {
+pub(crate) fn units() -> Target {
     Target {
         name: "units",
         valid: || {
@@ -84,7 +84,7 @@ pub fn units() -> Target {
 }
 
 /// Labels of all tools, and the impacts that they stand for.
-pub fn labels() -> Target {
+pub(crate) fn labels() -> Target {
     Target {
         name: "labels",
         valid: || {
@@ -127,7 +127,7 @@ pub fn labels() -> Target {
 const MOST_RENDERED: f64 = 20_000.0;
 
 /// Scenes as text, and short ones rendered.
-pub fn scene() -> Target {
+pub(crate) fn scene() -> Target {
     Target {
         name: "scene",
         valid: scenes,
@@ -161,7 +161,7 @@ pub fn scene() -> Target {
 }
 
 /// The whole way from a file to its documents.
-pub fn analyze() -> Target {
+pub(crate) fn analyze() -> Target {
     Target {
         name: "analyze",
         valid: recordings,
