@@ -64,6 +64,7 @@ pub mod report;
 pub mod rules;
 pub mod sequence;
 pub mod solve;
+pub mod statistics;
 pub mod synth;
 pub mod units;
 pub mod wav;

@@ -8,8 +8,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each folder must not name. Arrows: units, physics ← detect, sequence, fit ← report ← analysis, evaluate, picture ← cli.
-const FORBIDDEN: [(&str, &[&str]); 14] = [
+/// What each folder must not name. Arrows: units, statistics, physics ← detect, sequence, fit ← report ← analysis, evaluate, picture ← cli.
+const FORBIDDEN: [(&str, &[&str]); 15] = [
     (
         "physics",
         &[
@@ -83,6 +83,13 @@ const FORBIDDEN: [(&str, &[&str]); 14] = [
         "evaluate",
         &[
             "physics", "detect", "sequence", "fit", "wav", "analysis", "synth", "cli",
+        ],
+    ),
+    (
+        "statistics.rs",
+        &[
+            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "synth",
+            "evaluate", "cli",
         ],
     ),
     (

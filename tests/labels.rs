@@ -33,6 +33,8 @@ fn recording(folder: &str, preset: &str) -> (PathBuf, String) {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
         .join("labels")
         .join(folder);
+    // Labels of an earlier run, which were edited, would not be replaced.
+    drop(fs::remove_dir_all(&folder));
     fs::create_dir_all(&folder).unwrap();
     let path = folder.join("drop.wav").display().to_string();
     let made = run(&["synth", "--preset", preset, "-o", &path]);

@@ -10,6 +10,7 @@ use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
 use crate::report::{Drop, Estimates, Impact, Scatter, Status, Warning};
 use crate::sequence::{Chain, Link};
+use crate::statistics::upper_median;
 
 /// A drop, as far as it can be known before the recording ends.
 #[derive(Debug, Clone)]
@@ -192,9 +193,7 @@ pub(super) fn estimates(
 }
 
 fn median_std(timed: &[Timed]) -> Option<f64> {
-    let mut stds: Vec<f64> = timed.iter().filter(|t| t.heard).map(|t| t.std_s).collect();
-    stds.sort_by(f64::total_cmp);
-    stds.get(stds.len() / 2).copied()
+    upper_median(timed.iter().filter(|t| t.heard).map(|t| t.std_s))
 }
 
 fn impacts(

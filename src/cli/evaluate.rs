@@ -201,7 +201,8 @@ fn hold(arguments: &Arguments, evaluation: &Evaluation) -> Result<Vec<String>, E
         } else {
             Thresholds::default()
         };
-        output::write(path, old.tightened(held()).as_bytes())?;
+        // What is there was read as thresholds, so it begins as it may.
+        output::write(path, b"", old.tightened(held()).as_bytes())?;
     }
     match &arguments.check {
         Some(path) => Ok(read(path)?.complaints(held())),

@@ -20,11 +20,14 @@ pub(super) struct LabelArguments {
     /// Write the impacts as labels, by the ending for Audacity (txt), Sonic Visualiser (csv) or Praat
     #[arg(long, value_name = "OUT.txt|csv|TextGrid")]
     labels: Option<PathBuf>,
+    /// Replace labels that are there and differ
+    #[arg(long, requires = "labels")]
+    force: bool,
     /// Fit exactly the impacts of a label file, as written by --labels and then edited, or set by hand
     #[arg(long, value_name = "LABELS", conflicts_with_all = ["start", "end", "timing"])]
     impacts: Option<PathBuf>,
     /// Standard error of the time of a label that was moved or set by hand
-    #[arg(long, value_parser = time, default_value = "1ms", requires = "impacts", allow_negative_numbers = true)]
+    #[arg(long, value_parser = time, default_value = "1ms", requires = "impacts", allow_hyphen_values = true)]
     label_error: f64,
 }
 
@@ -56,14 +59,33 @@ impl LabelArguments {
         Ok(Some((path, marked)))
     }
 
-    /// Writes the labels, if that was asked for.
+    /// Writes the labels, if that was asked for. Others that are there are not lost.
     pub(super) fn write(&self, report: &Report) -> Result<(), Error> {
         let Some(path) = &self.labels else {
             return Ok(());
         };
         let form = form(path, "--labels")?;
         let text = to_labels(&report.analysis, report.recording.duration_s, form);
-        output::write(path, text.as_bytes())
+        if path.is_file() {
+            let there = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
+            self.spare(&there, text.as_bytes())
+                .map_err(|e| e.in_file(path))?;
+        }
+        output::write(path, b"", text.as_bytes())
+    }
+
+    /// Refuses to lose what is there. Labels are made to be edited: it may be a day's work, or a recording of this name.
+    fn spare(&self, there: &[u8], labels: &[u8]) -> Result<(), Error> {
+        if there.contains(&0) {
+            let problem = "it is there and is no text, so it holds no labels: choose another name, or delete it";
+            return Err(Error::refused(problem));
+        }
+        if self.force || there.is_empty() || there == labels {
+            return Ok(());
+        }
+        let problem =
+            "it is there and differs from the labels that are to be written: --force replaces it";
+        Err(Error::refused(problem))
     }
 }
 

@@ -6,6 +6,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use crate::Error;
+use crate::statistics::median;
 
 /// How often the file is read; the median counts.
 const REPEATS: usize = 9;
@@ -28,9 +29,8 @@ pub(super) fn read_and_sum_s(path: &Path) -> Result<f64, Error> {
             times.push(once_s(path, sum).map_err(|e| e.in_file(path))?);
         }
         // The first go only warms the cache.
-        let warm = &mut times[1..];
-        warm.sort_by(f64::total_cmp);
-        fastest = fastest.min(warm[REPEATS / 2]);
+        let warm = median(times.into_iter().skip(1));
+        fastest = fastest.min(warm.unwrap_or(f64::INFINITY));
     }
     Ok(fastest)
 }

@@ -19,34 +19,39 @@ use crate::wav::Stream;
 #[derive(Debug, Clone, Args)]
 pub(super) struct Listening {
     /// Height of release, from the ball's lowest point to the surface: 30.5cm, 12in, 0.305
-    #[arg(long, value_parser = length, allow_negative_numbers = true)]
+    #[arg(long, value_parser = length, allow_hyphen_values = true)]
     pub height: Option<f64>,
     /// Standard error of the height
-    #[arg(long, value_parser = length, default_value = "1mm", allow_negative_numbers = true)]
+    #[arg(long, value_parser = length, default_value = "1mm", allow_hyphen_values = true)]
     height_error: f64,
     /// Mass of the ball: 2.5g, 0.6kg; with --diameter the drag of the air is known, with a contact time k and c
-    #[arg(long, value_parser = mass, allow_negative_numbers = true)]
+    #[arg(long, value_parser = mass, allow_hyphen_values = true)]
     pub mass: Option<f64>,
     /// Diameter of the ball: 38mm
-    #[arg(long, value_parser = length, allow_negative_numbers = true)]
+    #[arg(long, value_parser = length, allow_hyphen_values = true)]
     pub diameter: Option<f64>,
     /// Time in contact at each impact, if known: 1ms
-    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    #[arg(long, value_parser = time, allow_hyphen_values = true)]
     contact_time: Option<f64>,
     /// Model of the intervals: constant e, and what is added to it
     #[arg(long, value_enum, default_value_t = ModelChoice::Auto)]
     model: ModelChoice,
     /// Gravity in m/s²
-    #[arg(long, value_parser = acceleration, default_value = "9.81", allow_negative_numbers = true)]
+    #[arg(long, value_parser = acceleration, default_value = "9.81", allow_hyphen_values = true)]
     gravity: f64,
     /// Which channel to listen to: best (the one in which impacts stand out most) or its number from 1
-    #[arg(long, default_value = "best", value_name = "best|N")]
+    #[arg(
+        long,
+        default_value = "best",
+        value_name = "best|N",
+        allow_hyphen_values = true
+    )]
     channel: Channel,
     /// Listen from here: 2s, 1.5, 2min
-    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    #[arg(long, value_parser = time, allow_hyphen_values = true)]
     start: Option<f64>,
     /// Listen up to here
-    #[arg(long, value_parser = time, allow_negative_numbers = true)]
+    #[arg(long, value_parser = time, allow_hyphen_values = true)]
     end: Option<f64>,
     /// How impacts are timed, from fastest to most exact
     #[arg(long, value_enum, default_value_t = TimingChoice::Auto)]

@@ -1,17 +1,42 @@
-//! Files that are whole or not there: written beside their place, then renamed.
+//! Files that are whole or not there: written beside their place, then renamed. What a person made is not replaced.
 
 use std::fs::{self, File, Metadata};
-use std::io::{self, Write};
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
 
-/// Writes a file, in place of one that is there. What is no file (a pipe, a terminal) is written to as it is.
+/// Links that are followed from one to the next, as the system does.
+const MOST_LINKS: usize = 40;
+
+/// Writes a file, in place of one that is there and begins with `alike`. What is no file (a pipe, a terminal) is written
+/// to as it is.
 ///
 /// # Errors
 /// [`Error::InFile`] naming the file that could not be written; then what was there before still is.
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), Error> {
-    Whole::fill(path, |file| Ok(file.write_all(bytes)?))?.put()
+pub(super) fn write(path: &Path, alike: &[u8], bytes: &[u8]) -> Result<(), Error> {
+    Whole::fill(path, alike, |file| Ok(file.write_all(bytes)?))?.put()
+}
+
+/// Where a name leads if it is a link, even to what is not there: a link stays, and what it leads to is written.
+pub(super) fn followed(path: &Path) -> PathBuf {
+    let mut path = path.to_path_buf();
+    for _ in 0..MOST_LINKS {
+        let Ok(to) = fs::read_link(&path) else {
+            break;
+        };
+        path = path.with_file_name("").join(to);
+    }
+    path
+}
+
+/// The place that a name stands for, whether or not there is something: two outputs must not have one.
+pub(super) fn place(path: &Path) -> PathBuf {
+    let path = followed(path);
+    let name = path.file_name().unwrap_or_default();
+    let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
+    let folder = fs::canonicalize(folder.unwrap_or(Path::new(".")));
+    folder.map_or_else(|_| path.clone(), |folder| folder.join(name))
 }
 
 /// A file with all that it will hold, which is not in its place yet. Dropped, it was never there.
@@ -23,33 +48,39 @@ pub(super) struct Whole {
 }
 
 impl Whole {
-    /// Writes the file beside its place, piece by piece.
+    /// Writes the file beside its place, piece by piece. A file that is there has to begin with `alike`, or it is no
+    /// earlier result but perhaps a recording: anything can have any name.
     ///
     /// # Errors
     /// [`Error::InFile`] naming the file that could not be written.
     pub(super) fn fill(
         path: &Path,
+        alike: &[u8],
         write: impl FnOnce(&mut File) -> Result<(), Error>,
     ) -> Result<Self, Error> {
         let mut whole = Self {
             path: path.to_path_buf(),
             rename: None,
         };
-        let written = whole.write(write);
+        let written = whole.write(alike, write);
         // If this fails, `whole` is dropped, and the partial file with it.
         written.map_err(|e| e.in_file(path)).map(|()| whole)
     }
 
-    fn write(&mut self, write: impl FnOnce(&mut File) -> Result<(), Error>) -> Result<(), Error> {
+    fn write(
+        &mut self,
+        alike: &[u8],
+        write: impl FnOnce(&mut File) -> Result<(), Error>,
+    ) -> Result<(), Error> {
         let there = fs::metadata(&self.path).ok();
         if there.as_ref().is_some_and(|m| !m.is_file() && !m.is_dir()) {
             return write(&mut File::create(&self.path)?);
         }
         if let Some(there) = &there {
             check_replaceable(there)?;
+            check_alike(&self.path, alike)?;
         }
-        // A link stays a link: what it leads to is replaced.
-        let place = fs::canonicalize(&self.path).unwrap_or_else(|_| self.path.clone());
+        let place = followed(&self.path);
         let mut name = place.file_name().unwrap_or_default().to_os_string();
         name.push(format!(".{}.partial", std::process::id()));
         let partial = place.with_file_name(name);
@@ -104,7 +135,7 @@ impl Drop for Whole {
 }
 
 /// A rename would take the place of a file even where writing to it is not allowed.
-fn check_replaceable(there: &Metadata) -> io::Result<()> {
+pub(super) fn check_replaceable(there: &Metadata) -> io::Result<()> {
     if there.is_dir() {
         return Err(io::ErrorKind::IsADirectory.into());
     }
@@ -112,6 +143,19 @@ fn check_replaceable(there: &Metadata) -> io::Result<()> {
         return Err(io::ErrorKind::PermissionDenied.into());
     }
     Ok(())
+}
+
+/// Refuses to replace what does not begin as what is to be written. Nothing is lost with an empty file.
+fn check_alike(path: &Path, alike: &[u8]) -> Result<(), Error> {
+    let mut head = Vec::new();
+    let most = u64::try_from(alike.len()).unwrap_or(u64::MAX);
+    File::open(path)?.take(most).read_to_end(&mut head)?;
+    if head.is_empty() || head == alike {
+        return Ok(());
+    }
+    Err(Error::refused(
+        "it is there and holds something else than what is to be written: choose another name, or delete it",
+    ))
 }
 
 #[cfg(test)]
@@ -123,17 +167,19 @@ mod tests {
         let folder = std::env::temp_dir().join(format!("bounce-output-{}", std::process::id()));
         fs::create_dir_all(folder.join("taken.svg/inside")).unwrap();
         let file = folder.join("a.svg");
-        write(&file, b"old").unwrap();
-        write(&file, b"new").unwrap();
+        write(&file, b"", b"old").unwrap();
+        write(&file, b"o", b"new").unwrap();
         assert_eq!(fs::read(&file).unwrap(), b"new");
-        let error = write(&folder.join("taken.svg"), b"x").unwrap_err();
+        let error = write(&folder.join("taken.svg"), b"", b"x").unwrap_err();
         assert!(error.to_string().contains("taken.svg"), "{error}");
-        let error = Whole::fill(&file, |file| {
+        let error = write(&file, b"o", b"x").unwrap_err().to_string();
+        assert!(error.contains("a.svg: it is there"), "{error}");
+        let error = Whole::fill(&file, b"", |file| {
             file.write_all(b"half")?;
             Err(Error::refused("no more"))
         });
         assert!(error.is_err());
-        drop(Whole::fill(&file, |file| Ok(file.write_all(b"whole")?)).unwrap());
+        drop(Whole::fill(&file, b"", |file| Ok(file.write_all(b"whole")?)).unwrap());
         assert_eq!(fs::read(&file).unwrap(), b"new");
         assert_eq!(fs::read_dir(&folder).unwrap().count(), 2);
         fs::remove_dir_all(folder).unwrap();

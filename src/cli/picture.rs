@@ -53,12 +53,12 @@ impl Target {
 
     /// Draws a picture into its file, which is whole or not there.
     pub(super) fn draw(&self, figure: &Figure) -> Result<(), Error> {
-        let bytes = match self.form {
-            Form::Svg => plot::to_svg(figure).map(String::into_bytes),
-            Form::Png => plot::to_png(figure),
+        let (alike, bytes) = match self.form {
+            Form::Svg => (&b"<svg"[..], plot::to_svg(figure).map(String::into_bytes)),
+            Form::Png => (&b"\x89PNG"[..], plot::to_png(figure)),
         };
         let bytes = bytes.map_err(|e| e.in_file(&self.path))?;
-        output::write(&self.path, &bytes)
+        output::write(&self.path, alike, &bytes)
     }
 
     /// The target of one picture of several: `OUT-2.svg`.

@@ -30,7 +30,7 @@ pub(super) struct Arguments {
     #[arg(long, conflicts_with = "scene")]
     preset: Option<String>,
     /// Seed of the random numbers: the same seed makes the same recording
-    #[arg(long, default_value_t = 1)]
+    #[arg(long, default_value_t = 1, allow_hyphen_values = true)]
     seed: u64,
     /// The WAV file to write; NAME.truth.json is written beside it
     #[arg(short, long, value_name = "OUT.wav")]
@@ -42,7 +42,12 @@ pub(super) struct Arguments {
     #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "preset", "output"])]
     suite: Option<PathBuf>,
     /// How many seeds, from 1 up
-    #[arg(long, default_value_t = 3, requires = "suite")]
+    #[arg(
+        long,
+        default_value_t = 3,
+        requires = "suite",
+        allow_hyphen_values = true
+    )]
     seeds: u64,
 }
 
@@ -86,11 +91,12 @@ fn make_suite(folder: &Path, seeds: u64) -> Result<String, Error> {
 }
 
 fn make_one(arguments: &Arguments) -> Result<String, Error> {
-    let made = render(&scene(arguments)?, arguments.seed)?;
     let path = arguments
         .output
         .as_ref()
         .ok_or_else(|| missing("--output", "a WAV file to write"))?;
+    check_ending(path)?;
+    let made = render(&scene(arguments)?, arguments.seed)?;
     let truth_path = write(path, &made)?;
     let impacts: usize = made.truth.drops.iter().map(|d| d.impacts_s.len()).sum();
     Ok(format!(
@@ -100,6 +106,21 @@ fn make_one(arguments: &Arguments) -> Result<String, Error> {
         made.truth.drops.len(),
         truth_path.display(),
     ))
+}
+
+/// Another ending would have the truth of `NAME.wav` for its own. What cannot be written to anyway says so itself.
+fn check_ending(path: &Path) -> Result<(), Error> {
+    let ends = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("wav"));
+    if ends || fs::metadata(path).is_ok_and(|m| !m.is_file()) {
+        return Ok(());
+    }
+    Err(Error::Argument {
+        argument: "--output",
+        got: format!("'{}'", path.display()),
+        expected: "a name that ends in .wav",
+    })
 }
 
 fn scene(arguments: &Arguments) -> Result<Scene, Error> {
@@ -125,8 +146,15 @@ fn missing(argument: &'static str, expected: &'static str) -> Error {
 fn write(path: &Path, made: &Synthetic) -> Result<PathBuf, Error> {
     let truth_path = path.with_extension("truth.json");
     let text = serde_json::to_string_pretty(&made.truth).map_err(io::Error::from)? + "\n";
-    let recording = Whole::fill(path, |file| write_wav(file, made))?;
-    let truth = Whole::fill(&truth_path, |file| Ok(file.write_all(text.as_bytes())?))?;
+    if fs::metadata(path).is_ok_and(|m| m.is_file() && m.len() > 0) && !truth_path.exists() {
+        let problem = "it is there, without a .truth.json beside it, so it is not one that synth made: choose another \
+                       name, or delete it";
+        return Err(Error::refused(problem).in_file(path));
+    }
+    let recording = Whole::fill(path, b"RIFF", |file| write_wav(file, made))?;
+    let truth = Whole::fill(&truth_path, b"{", |file| {
+        Ok(file.write_all(text.as_bytes())?)
+    })?;
     // Interrupted here, a recording may be without truth, but never beside the truth of another.
     truth.clear()?;
     recording.put()?;

@@ -1,6 +1,6 @@
 //! Pairs what was found with what is true: one to one, within 2 ms after one common offset.
 
-use super::statistics::median;
+use crate::statistics::median;
 
 /// Farthest that a pair may be apart, in seconds.
 pub const TOLERANCE_S: f64 = 2e-3;
@@ -57,8 +57,7 @@ pub fn pair(found_s: &[f64], truth_s: &[f64]) -> Matching {
 }
 
 fn middle(pairs: &[Pair]) -> f64 {
-    let errors: Vec<f64> = pairs.iter().map(|p| p.error_s).collect();
-    median(&errors).unwrap_or(0.0)
+    median(pairs.iter().map(|p| p.error_s)).unwrap_or(0.0)
 }
 
 /// Every small difference of a found and a true time.

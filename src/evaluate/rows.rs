@@ -4,7 +4,8 @@
 use serde::Serialize;
 
 use super::scores::{FileScore, Hit};
-use super::statistics::{common_slope, median, quantile, root_mean_square, share};
+use super::statistics::{common_slope, root_mean_square, share};
+use crate::statistics::{median, quantile};
 
 /// The result of an evaluation. Numbers that do not exist are null.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -172,13 +173,13 @@ impl Row {
         let to_limit_sizes: Vec<f64> = to_limit.iter().map(|r| r.abs()).collect();
         let groups: Vec<Vec<(f64, f64)>> = files.iter().map(|f| levels_and_errors(f)).collect();
         let walk = common_slope(&groups);
-        self.timing_error_median_s = median(&sizes);
-        self.timing_error_p95_s = quantile(&sizes, 0.95);
+        self.timing_error_median_s = median(sizes.iter().copied());
+        self.timing_error_p95_s = quantile(sizes.iter().copied(), 0.95);
         self.walk_s_per_db = walk.map(|(slope, _)| slope);
         self.walk_std_s_per_db = walk.map(|(_, error)| error);
         self.efficiency = root_mean_square(&to_limit);
         self.efficiency_of_match = root_mean_square(&to_floor);
-        self.efficiency_median = median(&to_limit_sizes);
+        self.efficiency_median = median(to_limit_sizes.iter().copied());
         self.cycle_slips = share(hits.iter().filter(|h| h.slipped).count(), hits.len());
         self.error_over_stated = root_mean_square(&to_stated);
     }
@@ -190,10 +191,10 @@ impl Row {
             .filter_map(|d| d.error_realised)
             .map(f64::abs)
             .collect();
-        self.restitution_error_median = median(&errors);
-        self.restitution_error_p90 = quantile(&errors, 0.9);
-        self.realised_error_median = median(&realised);
-        self.realised_error_p90 = quantile(&realised, 0.9);
+        self.restitution_error_median = median(errors.iter().copied());
+        self.restitution_error_p90 = quantile(errors.iter().copied(), 0.9);
+        self.realised_error_median = median(realised.iter().copied());
+        self.realised_error_p90 = quantile(realised.iter().copied(), 0.9);
         let covered: Vec<bool> = drops().filter_map(|d| d.covered).collect();
         self.coverage95 = share(covered.iter().filter(|&&c| c).count(), covered.len());
     }

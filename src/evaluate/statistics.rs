@@ -1,23 +1,6 @@
-//! Medians, quantiles, root mean squares and a slope with its error. What does not exist is `None`.
+//! Root mean squares, shares and a slope with its error. What does not exist is `None`.
 
-use crate::units::{real, samples_in};
-
-/// The smallest value that at least this share of the values does not exceed.
-pub(super) fn quantile(values: &[f64], share: f64) -> Option<f64> {
-    let mut sorted: Vec<f64> = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let rank = samples_in((share * real(sorted.len())).ceil(), 1.0).max(1);
-    sorted.get(rank - 1).copied()
-}
-
-/// The middle value; the mean of the two in the middle of an even number.
-pub(super) fn median(values: &[f64]) -> Option<f64> {
-    let mut sorted: Vec<f64> = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let upper = sorted.get(sorted.len() / 2)?;
-    let lower = sorted.get((sorted.len() - 1) / 2)?;
-    Some(0.5 * (lower + upper))
-}
+use crate::units::real;
 
 /// √mean(x²).
 pub(super) fn root_mean_square(values: &[f64]) -> Option<f64> {

@@ -4,6 +4,7 @@ use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::student;
+use crate::statistics::median;
 use crate::units::real;
 
 /// The share of batches without any outlier in which one is named all the same.
@@ -116,15 +117,6 @@ pub fn outliers(measurements: &[Measurement]) -> Vec<Outlier> {
     named
         .map(|(index, distance)| Outlier { index, distance })
         .collect()
-}
-
-/// The middle value; the mean of the two in the middle of an even number.
-fn median(values: impl Iterator<Item = f64>) -> Option<f64> {
-    let mut sorted: Vec<f64> = values.collect();
-    sorted.sort_by(f64::total_cmp);
-    let upper = sorted.get(sorted.len() / 2)?;
-    let lower = sorted.get((sorted.len() - 1) / 2)?;
-    Some(0.5 * (lower + upper))
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::flights::Impact;
 use super::least_squares::{Prior, Solution};
 use super::noise::{Noise, Sizes};
 use super::posterior::likeliest;
+use crate::statistics::upper_median;
 
 /// Rounds in which the model is made linear anew around the times and parameters found.
 const ROUNDS: usize = 5;
@@ -88,9 +89,8 @@ impl<'a> State<'a> {
     /// The median ratio of intervals.
     fn middle_ratio(&self) -> f64 {
         let triples = self.trial_s.windows(3);
-        let mut ratios: Vec<f64> = triples.map(|t| (t[2] - t[1]) / (t[1] - t[0])).collect();
-        ratios.sort_by(f64::total_cmp);
-        ratios[ratios.len() / 2]
+        let ratios = triples.map(|t| (t[2] - t[1]) / (t[1] - t[0]));
+        upper_median(ratios).unwrap_or(1.0)
     }
 
     /// The length of the shorter flight next to an impact.

@@ -4,6 +4,7 @@ use super::least_squares::solve;
 use super::noise::Sizes;
 use super::posterior::likeliest;
 use super::state::{State, pulls, time_pull};
+use crate::statistics::upper_median;
 
 /// Nats that a stray has to be worth: one bounce or time in two hundred strays, `ln((1 − q)/q)` with q = 0.005.
 const PRICE: f64 = 5.293_304_824_724_492;
@@ -69,10 +70,11 @@ pub(super) fn find(state: &mut State<'_>) -> Option<Strays> {
 fn crowd(state: &mut State<'_>) -> Option<Vec<usize>> {
     let impacts = state.time_variances.len();
     let bounces = state.bounces()?;
-    let middle = median(bounces.ln_e.clone());
+    let median = |values: &[f64]| upper_median(values.iter().copied()).unwrap_or(0.0);
+    let middle = median(&bounces.ln_e);
     let off: Vec<f64> = bounces.ln_e.iter().map(|z| (z - middle).abs()).collect();
     let sizes = Sizes {
-        bounce: MAD_TO_STD * median(off.clone()),
+        bounce: MAD_TO_STD * median(&off),
         timing: 1.0,
     };
     let suspects = off.iter().filter(|&&z| z > FAR * sizes.bounce).count();
@@ -144,11 +146,6 @@ fn farthest_time(state: &State<'_>, sizes: Sizes) -> Option<Option<usize>> {
 const FAR: f64 = 5.0;
 /// The standard deviation of a normal distribution over its median absolute deviation.
 const MAD_TO_STD: f64 = 1.4826;
-
-fn median(mut values: Vec<f64>) -> f64 {
-    values.sort_by(f64::total_cmp);
-    values.get(values.len() / 2).copied().unwrap_or(0.0)
-}
 
 /// The likelihood as it stands, the bounce and the time that are farthest off by their own errors; none if none is.
 fn suspects(state: &State<'_>) -> Option<(f64, usize, usize)> {

@@ -76,15 +76,24 @@ pub fn summary(digests: &[Digest]) -> String {
                         1 => file.clone(),
                         _ => format!("{file} drop {}", i + 1),
                     };
-                    out += &format!("{name}: {}\n", one(drop));
+                    out += &line_of("", &name, &one(drop), 4);
                     named.extend(measurement(drop).map(|m| (name, m)));
                 }
             }
-            Found::Nothing(reason) => out += &format!("{file}: {}\n", visible(reason)),
-            Found::Failed(reason) => out += &format!("{file}: failed: {}\n", visible(reason)),
+            Found::Nothing(reason) => out += &line_of("", &file, &visible(reason), 4),
+            Found::Failed(reason) => {
+                out += &line_of("", &file, &format!("failed: {}", visible(reason)), 4);
+            }
         }
     }
     out + "\n" + &counts(digests) + &together(&named)
+}
+
+/// What is told of a name, in lines no wider than a terminal. The name stays whole, with the spaces in it.
+fn line_of(head: &str, name: &str, told: &str, indent: usize) -> String {
+    let as_wide = "x".repeat(name.chars().count());
+    let line = wrapped(&format!("{head}{as_wide}: {told}"), indent);
+    line.replacen(&as_wide, name, 1) + "\n"
 }
 
 /// A name that stays in its line and leaves the terminal alone.
@@ -161,12 +170,13 @@ fn together(named: &[(String, Measurement)]) -> String {
     for (i, Outlier { index, distance }) in far.iter().enumerate() {
         let (name, (value, std)) = &named[*index];
         let label = if i == 0 { "outliers" } else { "" };
-        out += &format!(
-            "  {label:<8} {name}: e {}, {:.1} standard deviations {} the median\n",
+        let told = format!(
+            "e {}, {:.1} standard deviations {} the median",
             plus_minus(*value, *std),
             distance.abs(),
             if *distance > 0.0 { "above" } else { "below" }
         );
+        out += &line_of(&format!("  {label:<8} "), name, &told, 11);
     }
     let kept = measurements.iter().enumerate();
     let kept: Vec<Measurement> = kept
@@ -262,6 +272,41 @@ mod tests {
             assert!(said.contains(part), "{part} is missing in\n{said}");
         }
         assert!(said.lines().count() < 30 && !said.contains('\r'));
+    }
+
+    #[test]
+    fn lines_are_no_wider_than_a_terminal_and_names_stay_whole() {
+        let name = format!("a drop {}.wav", "of many words ".repeat(4).trim_end());
+        let mut digests: Vec<Digest> = (0..8)
+            .map(|i| digest(&format!("{i}.wav"), &[0.9 + 0.0005 * f64::from(i % 3)]))
+            .collect();
+        digests.push(digest(&name, &[0.95]));
+        digests.push(Digest {
+            file: name.clone(),
+            found: Found::Nothing(
+                "nothing rises out of its noise "
+                    .repeat(5)
+                    .trim_end()
+                    .into(),
+            ),
+        });
+        digests.push(Digest {
+            file: name.clone(),
+            found: Found::Failed(
+                "it is no recording of any kind "
+                    .repeat(5)
+                    .trim_end()
+                    .into(),
+            ),
+        });
+        let said = summary(&digests);
+        assert!(
+            said.lines().all(|line| line.chars().count() <= 80),
+            "{said}"
+        );
+        // Its drop, that it is an outlier, that it has none, that it failed.
+        assert_eq!(said.matches(&name).count(), 4, "{said}");
+        assert!(said.contains(&format!("{name}: failed:")), "{said}");
     }
 
     #[test]

@@ -2,6 +2,7 @@
 
 use super::drops::{Chain, Found, reject};
 use super::track::Scene;
+use crate::statistics::upper_median;
 use crate::units::real;
 
 /// Why a strong event is no impact.
@@ -211,12 +212,6 @@ fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: impl Fn(usize) -> bool) -
 }
 
 fn median_strength(scene: &Scene<'_>, drop: &Chain) -> f64 {
-    let mut strengths: Vec<f64> = drop
-        .links
-        .iter()
-        .filter_map(|l| l.event)
-        .map(|i| scene.events[i].strength)
-        .collect();
-    strengths.sort_by(f64::total_cmp);
-    strengths.get(strengths.len() / 2).copied().unwrap_or(0.0)
+    let heard = drop.links.iter().filter_map(|l| l.event);
+    upper_median(heard.map(|i| scene.events[i].strength)).unwrap_or(0.0)
 }

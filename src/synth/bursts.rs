@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::scene::{Mode, within};
 use super::sound::Sound;
-use super::{decibels, instant_s};
+use super::{decibels, followed_s, instant_s};
 use crate::Error;
 use crate::random::SplitMix64;
 
@@ -107,7 +107,8 @@ fn add_burst(
     rate: f64,
     samples: &mut [f64],
 ) {
-    let burst = Sound::new(modes, contact_s).render(rate, at_s, 1.0);
+    let sound = Sound::new(modes, contact_s).at_most(followed_s(samples.len(), rate));
+    let burst = sound.render(rate, at_s, 1.0);
     let peak = burst.peak();
     if peak > 0.0 {
         burst.add_to(samples, 0, decibels(level_db) / peak);

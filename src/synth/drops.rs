@@ -1,7 +1,7 @@
 //! The impacts of a scene's drops, from the physics.
 
 use super::room::travel_s;
-use super::scene::{BounceScene, DropScene, Mode, Scene};
+use super::scene::{BounceScene, DropScene, Mode, Scene, within};
 use super::sound::Sound;
 use crate::Error;
 use crate::physics::{
@@ -12,6 +12,9 @@ use crate::random::SplitMix64;
 
 /// Flights shorter than this are not made: the drop ends there.
 const SHORTEST_FLIGHT_S: f64 = 1e-3;
+
+/// Impacts of one drop at most.
+const MOST_IMPACTS: usize = 100_000;
 
 /// One impact to be heard.
 #[derive(Debug, Clone)]
@@ -37,15 +40,31 @@ pub(super) struct Dropped {
     pub(super) strikes: Vec<Strike>,
 }
 
-/// Drops the ball of a scene: all its impacts, those outside the recording too.
-pub(super) fn drop(scene: &Scene, index: usize, rng: &mut SplitMix64) -> Result<Dropped, Error> {
+/// Drops the ball of a scene: all its impacts, those outside the recording too. Their sounds are followed for so long
+/// at most.
+///
+/// # Errors
+/// [`Error::Argument`] naming what is out of range.
+pub(super) fn drop(
+    scene: &Scene,
+    index: usize,
+    followed_s: f64,
+    rng: &mut SplitMix64,
+) -> Result<Dropped, Error> {
     let drop = &scene.drops[index];
     let seed = rng.next_u64();
     // What only some scenes vary has its own stream, so that turning it on changes nothing else.
     let mut variety = SplitMix64::new(!seed);
     let height_m = drop.height_m * (1.0 + drop.height_spread * (2.0 * variety.uniform() - 1.0));
     let setup = setup(drop, scene.gravity_m_per_s2, height_m, seed)?;
-    let impacts: Vec<Impact> = setup.impacts()?.collect();
+    let impacts: Vec<Impact> = setup.impacts()?.take(MOST_IMPACTS + 1).collect();
+    if impacts.len() > MOST_IMPACTS {
+        return Err(Error::Argument {
+            argument: "bounce",
+            got: "so lively that more than 100000 impacts follow".to_owned(),
+            expected: "a lower restitution, or most_impacts",
+        });
+    }
     let first_s = impacts.first().map_or(0.0, |i| i.time_s);
     // The first impact falls between two samples, elsewhere for every seed.
     let shift_s = drop.first_impact_s + rng.uniform() / f64::from(scene.sample_rate_hz)
@@ -55,6 +74,7 @@ pub(super) fn drop(scene: &Scene, index: usize, rng: &mut SplitMix64) -> Result<
         .iter()
         .find_map(|i| i.contact_time_s)
         .unwrap_or(1e-3);
+    within("contact_time_s", contact_time_s, 1e-9..=1.0, "1 ns to 1 s")?;
     let fastest = impacts.first().map_or(1.0, |i| i.impact_speed_m_per_s);
     let strikes = impacts.into_iter().map(|impact| {
         let speed = impact.impact_speed_m_per_s;
@@ -77,7 +97,7 @@ pub(super) fn drop(scene: &Scene, index: usize, rng: &mut SplitMix64) -> Result<
             touch_s: impact.time_s + shift_s,
             arrival_s: impact.time_s + shift_s + travel_s(distance_m),
             nominal: nominal(&setup, speed)?,
-            sound: Sound::new(&modes, force_s),
+            sound: Sound::new(&modes, force_s).at_most(followed_s),
             impact,
         })
     });

@@ -51,8 +51,9 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
     let rate = f64::from(scene.sample_rate_hz);
     let end_s = scene.recorder.stop_s.unwrap_or(scene.duration_s);
     let count = samples_in(end_s - scene.recorder.start_s, rate);
+    let followed_s = followed_s(count, rate);
     let drops: Vec<Dropped> = (0..scene.drops.len())
-        .map(|index| drops::drop(scene, index, &mut rng))
+        .map(|index| drops::drop(scene, index, followed_s, &mut rng))
         .collect::<Result<_, _>>()?;
     let mut strikes: Vec<&Strike> = drops.iter().flat_map(|d| &d.strikes).collect();
     strikes.sort_by(|a, b| a.arrival_s.total_cmp(&b.arrival_s));
@@ -60,7 +61,7 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
         scene,
         rate,
         count,
-        gain: gain(&strikes, rate, decibels(scene.peak_db)),
+        gain: gain(&strikes, rate, real(count) / rate, decibels(scene.peak_db)),
         room: SplitMix64::new(surroundings.next_u64()),
         shared: SplitMix64::new(surroundings.next_u64()),
     };
@@ -95,10 +96,11 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
     })
 }
 
-/// The factor that brings the loudest impact to a peak; 0 if there is none to be heard.
-fn gain(strikes: &[&Strike], rate: f64, peak: f64) -> f64 {
+/// The factor that brings the loudest impact before the end to a peak; 0 if there is none to be heard.
+fn gain(strikes: &[&Strike], rate: f64, end_s: f64, peak: f64) -> f64 {
     let peaks = strikes
         .iter()
+        .filter(|s| s.arrival_s < end_s)
         .map(|s| s.sound.render(rate, s.arrival_s, 1.0).peak());
     let loudest = peaks.fold(0.0, f64::max);
     if loudest > 0.0 { peak / loudest } else { 0.0 }
@@ -132,6 +134,10 @@ impl Stage<'_> {
         // In order of time, so that an impact is heard against what came before it and not against its own echoes.
         for (i, strike) in strikes.iter().enumerate() {
             let onset_s = strike.arrival_s + channel.delay_s;
+            if onset_s >= real(self.count) / self.rate {
+                heard.push(Heard::NOTHING);
+                continue;
+            }
             let direct = strike.sound.render(self.rate, onset_s, gain);
             let next = strikes.get(i + 1).map(|s| s.arrival_s + channel.delay_s);
             let until = next.map_or(self.count, |s| samples_in(s, self.rate));
@@ -265,6 +271,14 @@ fn typical(values: &[f64], audible: &[bool]) -> f64 {
 /// `10^(x/20)`.
 fn decibels(x: f64) -> f64 {
     libm::pow(10.0, x / 20.0)
+}
+
+/// Sounds are followed for so long even in a shorter recording: their energy and pitch are those of all of it.
+const LEAST_FOLLOWED_S: f64 = 2.0;
+
+/// How long a sound is followed in a recording of so many samples.
+fn followed_s(count: usize, rate: f64) -> f64 {
+    instant_s(count, rate).max(LEAST_FOLLOWED_S)
 }
 
 /// Seconds of a sample.

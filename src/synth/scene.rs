@@ -6,8 +6,12 @@ use super::ambience::Noise;
 use super::recorder::Recorder;
 use super::room::{Echo, Tail};
 use crate::Error;
+use crate::units::real;
 
 pub use super::presets::preset;
+
+/// Samples that are made at most, as some 20 bytes of memory go with each: 38 minutes of one channel at 44.1 kHz.
+const MOST_SAMPLES: f64 = 100e6;
 
 /// A whole recording to be made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -197,13 +201,23 @@ impl Scene {
         }
         self.tail.map_or(Ok(()), |tail| tail.check())?;
         self.noise.check()?;
-        self.recorder.check(self.duration_s)
+        self.recorder.check(self.duration_s)?;
+        let recorder = &self.recorder;
+        let recorded_s = recorder.stop_s.unwrap_or(self.duration_s) - recorder.start_s;
+        let samples = recorded_s * rate * real(recorder.channels.len());
+        if samples > MOST_SAMPLES {
+            return Err(Error::Argument {
+                argument: "the recording",
+                got: format!("{samples:.0} samples long, over all channels"),
+                expected: "100000000 at most: a shorter duration_s, a lower sample_rate_hz or fewer channels",
+            });
+        }
+        Ok(())
     }
 }
 
 impl DropScene {
     fn check(&self, duration_s: f64) -> Result<(), Error> {
-        let any = 0.0..=f64::MAX;
         within(
             "first_impact_s",
             self.first_impact_s,
@@ -227,8 +241,8 @@ impl DropScene {
         within(
             "microphone_distance_m",
             self.microphone_distance_m,
-            any.clone(),
-            "0 m or more",
+            0.0..=1e4,
+            "0 to 10 km",
         )?;
         within(
             "leaving_m_per_s",
@@ -237,9 +251,14 @@ impl DropScene {
             "0 to 30 m/s",
         )?;
         for mode in &self.modes {
-            within("frequency_hz", mode.frequency_hz, 1e-3..=1e6, "above 0 Hz")?;
+            within(
+                "frequency_hz",
+                mode.frequency_hz,
+                1e-3..=1e6,
+                "0.001 to 1000000 Hz",
+            )?;
             within("decay_s", mode.decay_s, 1e-6..=60.0, "1 us to 60 s")?;
-            within("level", mode.level, any.clone(), "0 or more")?;
+            within("level", mode.level, 0.0..=1e30, "0 to 1e30")?;
         }
         Ok(())
     }

@@ -28,6 +28,7 @@ type Complex = (f64, f64);
 pub struct Sound {
     modes: Vec<Mode>,
     contact_time_s: f64,
+    longest_s: f64,
 }
 
 /// The samples of one sound.
@@ -48,7 +49,15 @@ impl Sound {
         Self {
             modes: modes.to_vec(),
             contact_time_s,
+            longest_s: f64::INFINITY,
         }
+    }
+
+    /// The same sound, followed for so many seconds at most: what nobody will hear costs time and memory too.
+    #[must_use]
+    pub const fn at_most(mut self, longest_s: f64) -> Self {
+        self.longest_s = longest_s;
+        self
     }
 
     /// The samples, at a rate, of an impact at `onset_s`, times `gain`.
@@ -58,7 +67,7 @@ impl Sound {
         let audible = |m: &&Mode| m.frequency_hz < HIGHEST_OF_RATE * rate;
         let longest = self.modes.iter().filter(audible).map(|m| m.decay_s);
         let length_s = self.contact_time_s + DECAYS * longest.fold(0.0, f64::max);
-        let count = samples_in(length_s, rate);
+        let count = samples_in(length_s.min(self.longest_s), rate);
         let mut rendered = Rendered {
             first: first.index,
             pressure: vec![0.0; count],
@@ -73,7 +82,9 @@ impl Sound {
     /// The sound of each mode alone, as [`Sound::render`] gives their sum.
     #[must_use]
     pub fn modes(&self, rate: f64, onset_s: f64, gain: f64) -> Vec<Rendered> {
-        let alone = |mode: &Mode| Self::new(std::slice::from_ref(mode), self.contact_time_s);
+        let alone = |mode: &Mode| {
+            Self::new(std::slice::from_ref(mode), self.contact_time_s).at_most(self.longest_s)
+        };
         let modes = self.modes.iter();
         modes
             .map(|m| alone(m).render(rate, onset_s, gain))

@@ -7,6 +7,12 @@
 //! BOUNCE_AUDIO_FUZZ=1000000 BOUNCE_AUDIO_FUZZ_SEED=2 cargo test --release --test fuzz walk -- --nocapture
 //! ```
 //!
+//! `cargo fuzz` runs the same targets from `fuzz/`, guided by the paths that an input takes:
+//!
+//! ```sh
+//! cd fuzz && cargo run --example seeds && cargo +nightly fuzz run --fuzz-dir . walk
+//! ```
+//!
 //! What fails is written to `target/tmp/TARGET-SEED`; in `fixtures/crashes/TARGET` it is replayed from then on.
 #![allow(
     clippy::unwrap_used,
@@ -15,6 +21,7 @@
     reason = "a failing test should panic, and a long run says how far it came"
 )]
 
+mod choose;
 mod mutate;
 mod targets;
 
@@ -136,7 +143,7 @@ fn the_whole_analyze() {
 #[test]
 fn every_crash_found_is_mended() {
     let crashes = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/crashes");
-    for target in [walk(), units(), labels(), scene(), analyze()] {
+    for target in targets::all() {
         let Ok(files) = fs::read_dir(crashes.join(target.name)) else {
             continue;
         };
@@ -146,7 +153,9 @@ fn every_crash_found_is_mended() {
             let name = file.file_name().unwrap().to_string_lossy().into_owned();
             // The name ends with the seed, which settings are made from.
             let seed = name.rsplit('-').next().and_then(|seed| seed.parse().ok());
-            execute(&target, &name, &fs::read(&file).unwrap(), seed.unwrap_or(1));
+            let took = execute(&target, &name, &fs::read(&file).unwrap(), seed.unwrap_or(1));
+            // A hang that was found took half a minute; a busy machine takes some hundredths of a second now.
+            assert!(took < 5 * LONGEST, "{name} took {took:?}");
         }
     }
 }

@@ -2,6 +2,8 @@
 
 use bounce_audio::random::SplitMix64;
 
+use super::choose::{below, one_of};
+
 /// Lengths and counts that readers stumble over.
 const EDGES: [u32; 12] = [
     0,
@@ -19,16 +21,6 @@ const EDGES: [u32; 12] = [
 ];
 /// Headers are so long: half of all changes are made there.
 const HEADER: usize = 64;
-
-/// A number below `end`, or 0 where there is none.
-pub(crate) fn below(random: &mut SplitMix64, end: usize) -> usize {
-    usize::try_from(random.next_u64() % end.max(1) as u64).unwrap_or(0)
-}
-
-/// One of several things.
-pub(crate) fn one_of<'a, T>(random: &mut SplitMix64, of: &'a [T]) -> &'a T {
-    &of[below(random, of.len())]
-}
 
 fn noise(random: &mut SplitMix64, length: usize) -> Vec<u8> {
     (0..length)

@@ -1,7 +1,7 @@
 //! What is fuzzed: how an input is read, and what has to hold of the result.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use bounce_audio::Error;
 use bounce_audio::analysis::{Listener, Settings};
@@ -16,7 +16,7 @@ use bounce_audio::synth::scene::Scene;
 use bounce_audio::units::{Quantity, real};
 use bounce_audio::wav::{self, Stream};
 
-use super::mutate::one_of;
+use super::choose::one_of;
 
 /// Something that reads what others wrote.
 pub(crate) struct Target {
@@ -28,6 +28,11 @@ pub(crate) struct Target {
     pub(crate) words: &'static [&'static str],
     /// Reads an input and checks what came of it; random numbers make what else it needs.
     pub(crate) run: fn(&[u8], &mut SplitMix64),
+}
+
+/// All of them.
+pub(crate) fn all() -> [Target; 5] {
+    [walk(), units(), labels(), scene(), analyze()]
 }
 
 /// The walk over the chunks and all decoders.
@@ -170,9 +175,17 @@ pub(crate) fn analyze() -> Target {
     }
 }
 
+/// `fixtures/` of this package, or beside the one that `cargo fuzz` builds.
+fn fixtures() -> PathBuf {
+    let folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let mut fixtures = folders.map(|folder| folder.join("fixtures"));
+    fixtures.find(|folder| folder.is_dir()).unwrap()
+}
+
 fn variants() -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/wav-variants");
-    let files = fs::read_dir(folder).unwrap().map(|f| f.unwrap().path());
+    let files = fs::read_dir(fixtures().join("wav-variants"))
+        .unwrap()
+        .map(|f| f.unwrap().path());
     let mut files: Vec<_> = files
         .filter(|f| f.extension().is_some_and(|e| e == "wav"))
         .collect();
@@ -189,7 +202,7 @@ fn variants() -> Vec<Vec<u8>> {
 /// The presets, and each again so short that it is rendered.
 fn scenes() -> Vec<Vec<u8>> {
     let names = bounce_audio::synth::presets::names();
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/scenes");
+    let folder = fixtures().join("scenes");
     let texts = names.map(|name| fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap());
     let all = texts.flat_map(|text| {
         let short = text.lines().map(|line| match line.split(' ').next() {

@@ -137,17 +137,21 @@ impl Job<'_> {
         Ok(())
     }
 
-    /// Refuses to write over an input.
+    /// Refuses to write over what is read.
     pub(super) fn spare(&self, written: &Path) -> Result<(), Error> {
         let Ok(real) = fs::canonicalize(written) else {
             return Ok(());
         };
         let is_it = |input: &Input| fs::canonicalize(input.path()).is_ok_and(|path| path == real);
-        if self.inputs.iter().any(is_it) {
-            let problem = "it is one of the recordings: it will not be written over";
-            return Err(Error::refused(problem).in_file(written));
-        }
-        Ok(())
+        let problem = if self.inputs.iter().any(is_it) {
+            "it is one of the recordings: it will not be written over"
+        } else if matches!(&self.per_file, PerFile::Table(path, _) if fs::canonicalize(path).is_ok_and(|p| p == real))
+        {
+            "it is the table of the options: it will not be written over"
+        } else {
+            return Ok(());
+        };
+        Err(Error::refused(problem).in_file(written))
     }
 }
 

@@ -9,6 +9,7 @@ mod plots;
 mod progress;
 mod rows_file;
 
+use std::collections::HashSet;
 use std::fs::File;
 use std::io::{self, ErrorKind, Write};
 use std::ops::ControlFlow;
@@ -19,6 +20,7 @@ use clap::{Args, value_parser};
 
 use super::Outcome;
 use super::listen::Listening;
+use super::output::{followed, place};
 use super::picture::Target as Picture;
 use crate::Error;
 use crate::picture::batch::sheet;
@@ -53,7 +55,7 @@ pub(super) struct Arguments {
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// How many recordings to listen to at once [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..), allow_hyphen_values = true)]
     jobs: Option<u16>,
     /// Form of the rows
     #[arg(long, value_enum, default_value_t = Format::Csv)]
@@ -98,6 +100,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         listening: &arguments.listening,
         format: arguments.format,
     };
+    check_apart(arguments, &job)?;
+    job.plots.as_ref().map_or(Ok(()), Plots::make)?;
     if let Some(note) = job.unmatched() {
         say(&note);
     }
@@ -128,6 +132,21 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         output: String::new(),
         status: u8::from(!digests.iter().all(found)),
     })
+}
+
+/// Refuses two outputs in one place: the later one would replace the earlier.
+fn check_apart(arguments: &Arguments, job: &Job<'_>) -> Result<(), Error> {
+    let rows = arguments.output.iter();
+    let rows = rows.flat_map(|path| [path.clone(), partial(&followed(path))]);
+    let sheets = job.plots.iter().flat_map(|plots| plots.sheets(&job.inputs));
+    let mut places = HashSet::new();
+    for path in rows.chain(arguments.plot.clone()).chain(sheets) {
+        if !places.insert(place(&path)) {
+            let problem = "two results would be written here: give them names of their own";
+            return Err(Error::refused(problem).in_file(path));
+        }
+    }
+    Ok(())
 }
 
 fn per_file(arguments: &Arguments) -> Result<PerFile, Error> {
@@ -162,29 +181,30 @@ impl Target {
     /// Makes ready to write, and gives what is there already.
     fn open(arguments: &Arguments, job: &Job<'_>) -> Result<(Self, Vec<Digest>), Error> {
         let (force, format) = (arguments.force, arguments.format);
-        let Some(path) = &arguments.output else {
+        // A link stays a link, so the rows go beside what it leads to.
+        let Some(path) = arguments.output.as_deref().map(followed) else {
             let mut output = Self::Output;
             // If nobody reads, the first row says so again.
             output.add(&format.header()).map(|_| ())?;
             return Ok((output, Vec::new()));
         };
-        for written in [path, &partial(path)] {
+        for written in [&path, &partial(&path)] {
             job.spare(written)?;
             check_is_file(written)?;
         }
         if !arguments.resume {
             return Ok((
-                Self::File(RowsFile::create(path, force, format)?),
+                Self::File(RowsFile::create(&path, force, format)?),
                 Vec::new(),
             ));
         }
-        match RowsFile::resume(path, force, format)? {
+        match RowsFile::resume(&path, force, format)? {
             Resumed::Finished(file, back) => {
-                Ok((Self::Finished, finished(job, &file, back, path)?))
+                Ok((Self::Finished, finished(job, &file, back, &path)?))
             }
             Resumed::Partial(mut rows, back) => {
                 let same = job.same_run(rows.partial(), &back);
-                same.map_err(|e| e.in_file(partial(path)))?;
+                same.map_err(|e| e.in_file(partial(&path)))?;
                 rows.cut(back.end, format)?;
                 Ok((Self::File(rows), back.digests))
             }

@@ -19,10 +19,8 @@ pub(super) struct Plots {
 }
 
 impl Plots {
-    /// Makes the folder.
-    ///
     /// # Errors
-    /// If it cannot be made, or two inputs would have the same picture: neither may replace the other's.
+    /// If two inputs would have the same picture: neither may replace the other's.
     pub(super) fn new(folder: &Path, inputs: &[Input]) -> Result<Self, Error> {
         let mut owners: HashMap<OsString, &Path> = HashMap::new();
         for input in inputs {
@@ -35,15 +33,29 @@ impl Plots {
                 expected: "recordings of different names, as both would have one picture: rename one, or run their folders apart",
             });
         }
-        fs::create_dir_all(folder).map_err(|e| Error::from(e).in_file(folder))?;
         Ok(Self {
             folder: folder.to_path_buf(),
         })
     }
 
+    /// Makes the folder.
+    pub(super) fn make(&self) -> Result<(), Error> {
+        let made = fs::create_dir_all(&self.folder);
+        made.map_err(|e| Error::from(e).in_file(&self.folder))
+    }
+
+    /// Where the sheet of each input goes.
+    pub(super) fn sheets(&self, inputs: &[Input]) -> Vec<PathBuf> {
+        inputs.iter().map(|i| self.sheet(i.path())).collect()
+    }
+
+    fn sheet(&self, recording: &Path) -> PathBuf {
+        self.folder.join(file_name(recording))
+    }
+
     /// Draws the sheets of a recording.
     pub(super) fn draw(&self, recording: &Path, report: &Report) -> Result<(), Error> {
-        let target = Target::new(&self.folder.join(file_name(recording)))?;
+        let target = Target::new(&self.sheet(recording))?;
         draw_sheets(&target, recording, report)
     }
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::format::{Format, ReadBack};
 use crate::Error;
+use crate::cli::output::check_replaceable;
 
 /// The file that rows are added to.
 #[derive(Debug)]
@@ -126,13 +127,16 @@ impl RowsFile {
     }
 }
 
-/// A folder cannot be replaced by rows, and a pipe or device must not be.
+/// A folder cannot be replaced by rows, and a pipe, a device or a protected file must not be.
 pub(super) fn check_is_file(path: &Path) -> Result<(), Error> {
-    if fs::metadata(path).is_ok_and(|m| !m.is_file()) {
+    let Ok(there) = fs::metadata(path) else {
+        return Ok(());
+    };
+    if !there.is_file() {
         let problem = "it is not a file: rows go into a file, or without -o to standard output";
         return Err(Error::refused(problem).in_file(path));
     }
-    Ok(())
+    check_replaceable(&there).map_err(|e| Error::from(e).in_file(path))
 }
 
 /// `OUT.partial`.

@@ -4,6 +4,7 @@ use super::average::solve;
 use super::settle::Normal;
 use super::{Impact, Joint};
 use crate::detect::refine::interpolate::{KERNEL, shifted, slope};
+use crate::statistics::upper_median;
 use crate::units::{real, samples_in};
 
 /// What is added to the positions so that they stand at the touch and not at a constant share of the contact:
@@ -146,9 +147,7 @@ fn drift(joint: &Joint, begins: &[(f64, f64)]) -> Option<Late> {
     for _ in 0..AVERAGINGS {
         let curve = Curve::through(&values, &weights, terms)?;
         let off = |v: &Value| (v.late - curve.at(v.slowness)) / v.std;
-        let mut sizes: Vec<f64> = values.iter().map(|v| off(v).abs()).collect();
-        sizes.sort_by(f64::total_cmp);
-        let scale = (1.48 * sizes[sizes.len() / 2]).max(1.0);
+        let scale = (1.48 * upper_median(values.iter().map(|v| off(v).abs()))?).max(1.0);
         drift = Some(curve.late(scale));
         for (w, v) in weights.iter_mut().zip(&values) {
             *w = 1.0 / (v.std * v.std * (1.0 + (off(v) / (3.0 * scale)).powi(2)));

@@ -25,6 +25,7 @@ mod tests;
 use super::whiten::Whitener;
 use super::{Timed, fraction};
 use crate::detect::voice::Correlator;
+use crate::statistics::upper_median;
 use crate::units::{real, samples_in};
 use template::Template;
 
@@ -141,9 +142,7 @@ impl Joint {
     /// How far matches usually stand after the detector's times, in samples: the median.
     fn usual_move(&self) -> f64 {
         let moves = self.impacts.iter().map(|i| i.position - i.coarse);
-        let mut moves: Vec<f64> = moves.collect();
-        moves.sort_by(f64::total_cmp);
-        moves.get(moves.len() / 2).copied().unwrap_or(0.0)
+        upper_median(moves).unwrap_or(0.0)
     }
 
     /// Where the template's sound begins, in samples after its nominal onset: the constant fraction of its rise.
