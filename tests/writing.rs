@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use bounce_audio::wav;
+use bounce_audio::audio;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_bounce-audio");
 
@@ -325,7 +325,10 @@ fn a_killed_suite_leaves_whole_recordings() {
         for name in names(&suite) {
             let path = suite.join(&name);
             if name.ends_with(".wav") {
-                assert!(wav::read_file(&path).unwrap().warnings.is_empty(), "{name}");
+                assert!(
+                    audio::read_file(&path).unwrap().warnings.is_empty(),
+                    "{name}"
+                );
             } else if name.ends_with(".json") {
                 serde_json::from_slice::<serde_json::Value>(&fs::read(&path).unwrap()).unwrap();
                 assert!(

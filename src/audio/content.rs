@@ -1,14 +1,23 @@
 //! What a recording is, by its first bytes. Names of files are not asked: phones and people get them wrong.
 
-/// As many bytes as it takes.
-pub(super) const HEAD_BYTES: usize = 64;
+use std::ffi::OsStr;
+use std::path::Path;
 
-/// Endings of the names that recordings have which are read, and of those for which it is told how to convert them.
-pub const ENDINGS: [&str; 27] = [
-    "wav", "wave", "m4a", "mp4", "m4b", "mov", "aac", "mp3", "flac", "ogg", "oga", "opus", "webm",
-    "mka", "amr", "awb", "3gp", "3ga", "wma", "aif", "aiff", "aifc", "caf", "au", "wv", "ape",
-    "qta",
+/// As many first bytes as it takes to tell what a recording is.
+pub const HEAD_BYTES: usize = 64;
+
+/// Endings of the names of recordings: of those that are read, and of those for which it is told how to convert them.
+const ENDINGS: [&str; 22] = [
+    "wav", "wave", "m4a", "mp4", "mov", "aac", "mp3", "flac", "ogg", "oga", "opus", "webm", "mka",
+    "amr", "3gp", "3ga", "wma", "aif", "aiff", "aifc", "caf", "qta",
 ];
+
+/// Whether the name of a file says that it should be a recording.
+#[must_use]
+pub fn has_ending(path: &Path) -> bool {
+    let of = path.extension().and_then(OsStr::to_str);
+    of.is_some_and(|of| ENDINGS.iter().any(|ending| ending.eq_ignore_ascii_case(of)))
+}
 
 /// Whether a file begins as a recording does, read or refused with a reason.
 #[must_use]

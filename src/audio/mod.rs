@@ -12,7 +12,7 @@ mod wav;
 use std::io::Read;
 use std::path::Path;
 
-pub use content::{ENDINGS, could_be_recording};
+pub use content::{HEAD_BYTES, could_be_recording, has_ending};
 pub use stream::Stream;
 
 use crate::Error;

@@ -120,10 +120,7 @@ fn recordings(folder: &Path) -> Result<Vec<(PathBuf, Reference)>, Error> {
     let mut paths = Vec::new();
     for entry in fs::read_dir(folder).map_err(in_folder)? {
         let path = entry.map_err(in_folder)?.path();
-        if path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("wav"))
-        {
+        if audio::has_ending(&path) {
             paths.push(path);
         }
     }

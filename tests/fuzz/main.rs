@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use bounce_audio::random::SplitMix64;
-use targets::{Target, analyze, labels, scene, units, walk};
+use targets::{Target, analyze, compressed, labels, scene, units, walk};
 
 /// What one execution may take of a processor in a long run.
 const LONGEST: Duration = Duration::from_secs(1);
@@ -114,6 +114,11 @@ fn the_walk_and_the_decoders() {
 }
 
 #[test]
+fn compressed_sound() {
+    fuzz(&compressed(), 300);
+}
+
+#[test]
 fn labels_of_other_tools() {
     fuzz(&labels(), 20_000);
 }
@@ -136,7 +141,7 @@ fn the_whole_analyze() {
 #[test]
 fn every_crash_found_is_mended() {
     let crashes = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/crashes");
-    for target in [walk(), units(), labels(), scene(), analyze()] {
+    for target in [walk(), compressed(), units(), labels(), scene(), analyze()] {
         let Ok(files) = fs::read_dir(crashes.join(target.name)) else {
             continue;
         };

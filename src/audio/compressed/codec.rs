@@ -54,7 +54,11 @@ impl Decoder {
                 true,
             ),
             CODEC_ID_OPUS => return Err(unreadable(Refused::new("Opus", ending).sentence())),
-            _ => return Err(unreadable(Refused::new("of a codec", ending).sentence())),
+            _ => {
+                return Err(unreadable(
+                    Refused::new("without sound in AAC or ALAC", ending).sentence(),
+                ));
+            }
         };
         let inner = made.map_err(|e| refused(&e, name, ending))?;
         let bits = inner.codec_params().bits_per_sample.filter(|_| !is_lossy);

@@ -13,6 +13,7 @@ use super::codec::Decoder;
 use super::source::Source;
 use super::{Next, Opened, Packets};
 use crate::Error;
+use crate::audio::content::Refused;
 use crate::audio::unreadable;
 
 /// A container that symphonia takes apart, and the stream of it that is listened to.
@@ -32,7 +33,7 @@ pub(super) fn mp4(source: Source<'_>) -> Result<Opened<'_>, Error> {
     // Its type stands behind a length, which the reader goes back for.
     media.ignore_bytes(4)?;
     match IsoMp4Reader::try_new(media, FormatOptions::default()) {
-        Ok(reader) => opened(Box::new(reader), "m4a", false),
+        Ok(reader) => opened(Box::new(reader), "mp4", false),
         Err(Problem::Unsupported(what)) if what.contains("missing moov") => {
             Err(unreadable(if is_pipe {
                 "its index stands behind its sound, where a pipe cannot look first: give the file itself, or move it with \
@@ -59,7 +60,8 @@ fn opened<'s>(
     ending: &'static str,
     placed: bool,
 ) -> Result<Opened<'s>, Error> {
-    let (track, params) = sound(&*reader).ok_or_else(|| unreadable("it holds no audio"))?;
+    let none = || unreadable(Refused::new("without sound in AAC or ALAC", ending).sentence());
+    let (track, params) = sound(&*reader).ok_or_else(none)?;
     let decoder = Decoder::new(&params, ending)?;
     let expected = None;
     let packets = Box::new(Indexed {
