@@ -61,7 +61,15 @@ impl Decoder {
             }
         };
         let inner = made.map_err(|e| refused(&e, name, ending))?;
-        let bits = inner.codec_params().bits_per_sample.filter(|_| !is_lossy);
+        let bits = match params.codec {
+            // In the sixth byte of what it says of itself.
+            CODEC_ID_ALAC => params
+                .extra_data
+                .as_ref()
+                .and_then(|d| Some(u32::from(*d.get(5)?))),
+            CODEC_ID_FLAC => inner.codec_params().bits_per_sample,
+            _ => None,
+        };
         Ok(Self {
             inner,
             name,

@@ -34,15 +34,23 @@ pub(super) fn mp4(source: Source<'_>) -> Result<Opened<'_>, Error> {
     media.ignore_bytes(4)?;
     match IsoMp4Reader::try_new(media, FormatOptions::default()) {
         Ok(reader) => opened(Box::new(reader), "mp4", false),
-        Err(Problem::Unsupported(what)) if what.contains("missing moov") => {
-            Err(unreadable(if is_pipe {
-                "its index stands behind its sound, where a pipe cannot look first: give the file itself, or move it with \
-             ffmpeg -i IN.m4a -c copy -movflags +faststart OUT.m4a"
-            } else {
-                "its index (moov) is missing: the recording was not finished, or the file is cut"
-            }))
-        }
-        Err(problem) => Err(broken(problem, "MP4")),
+        Err(problem) if !is_without_index(&problem) => Err(broken(problem, "MP4")),
+        Err(_) if is_pipe => Err(unreadable(
+            "its index (moov) stands behind its sound, where a pipe cannot look first, or is missing: give the file itself, \
+             or move it with ffmpeg -i IN.m4a -c copy -movflags +faststart OUT.m4a",
+        )),
+        Err(_) => Err(unreadable(
+            "its index (moov) is missing or cut: the recording was not finished, or the file is cut",
+        )),
+    }
+}
+
+/// Whether an MP4 ended before its index did.
+fn is_without_index(problem: &Problem) -> bool {
+    match problem {
+        Problem::Unsupported(what) => what.contains("missing moov"),
+        Problem::IoError(e) => e.kind() == ErrorKind::UnexpectedEof,
+        _ => false,
     }
 }
 

@@ -31,6 +31,8 @@ pub(in crate::audio) struct Stream<'s> {
     decoder: Decoder,
     /// Whether the container has marks.
     marks: bool,
+    /// Whether the length of what is lost is an estimate, from the length of frames.
+    is_estimate: bool,
     sample_rate_hz: u32,
     channels: usize,
     /// Frames of silence, and after them samples, that are yet to be handed over.
@@ -81,6 +83,7 @@ impl<'s> Stream<'s> {
             packets,
             decoder,
             marks: content == Content::OggVorbis,
+            is_estimate: matches!(content, Content::Mp3 | Content::Adts | Content::Tagged),
             sample_rate_hz: 0,
             channels: 0,
             silence: 0,
@@ -249,10 +252,11 @@ impl<'s> Stream<'s> {
         if losses.times > 0 {
             warnings.push(format!(
                 "sound is damaged in {} places, the first at {:.3} s; {:.3} s of it are silence now, so that what follows \
-                 keeps its time",
+                 keeps its time{}",
                 losses.times,
                 at(losses.first),
-                at(losses.frames)
+                at(losses.frames),
+                if self.is_estimate { ", to a frame or so where frames differ in length" } else { "" }
             ));
         }
         if losses.not_finite > 0 {
