@@ -11,8 +11,8 @@ use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
 use bounce_audio::analysis::{Listener, Settings};
+use bounce_audio::audio::Stream;
 use bounce_audio::synth::{render, scene};
-use bounce_audio::wav::Stream;
 
 const DURATION_S: usize = 600;
 const RATE_HZ: usize = 44_100;
@@ -68,7 +68,7 @@ fn sum_of_squares(path: &Path) -> f64 {
 /// Drops found in a file, as the command goes about it.
 fn analysis(path: &Path) -> usize {
     let mut stream = Stream::open_file(path).unwrap();
-    let rate = f64::from(stream.container().sample_rate_hz);
+    let rate = f64::from(stream.sample_rate_hz());
     let mut listener = Listener::new(1, rate, &Settings::default()).unwrap();
     let mut next = |room: &mut [Vec<f32>]| stream.append(&(0..1), room).unwrap();
     while listener.push_with(&mut next).unwrap() {}

@@ -34,6 +34,12 @@ pub enum Error {
         /// What is wrong with it.
         problem: String,
     },
+    /// A recording that is no WAV cannot be read.
+    #[error("not a readable recording: {problem}")]
+    Recording {
+        /// Why not, and what converts it.
+        problem: String,
+    },
     /// Fewer impacts than a computation needs.
     #[error("found {found} impacts, {purpose} needs at least {needed}")]
     TooFewImpacts {

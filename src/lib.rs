@@ -2,7 +2,7 @@
 //!
 //! [`analysis::analyze`] takes samples in memory and a rate, and gives the drops that it hears: when the ball hit, the
 //! coefficient of restitution with its error, the model that the recording supports. No file, thread or terminal is
-//! needed; those are touched in [`wav`] and [`cli`] alone.
+//! needed; those are touched in [`audio`] and [`cli`] alone.
 //!
 //! ```
 //! use bounce_audio::analysis::{Settings, analyze};
@@ -31,6 +31,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`analysis`] | the whole way from samples to drops, from memory or [block by block](analysis::Listener) |
+//! | [`audio`] | files and pipes to samples: WAV, FLAC, MP3, MP4 and others |
 //! | [`detect`], [`sequence`], [`fit`] | its steps: candidate impacts, the chain that is a drop, e from its times |
 //! | [`report`] | what was found, as data; text, JSON, CSV and [labels](report::labels) are functions of it |
 //! | [`rules`] | the rebound that a rule book asks for |
@@ -51,6 +52,7 @@
 )]
 
 pub mod analysis;
+pub mod audio;
 pub mod cli;
 pub mod detect;
 pub mod error;
@@ -67,6 +69,5 @@ pub mod solve;
 pub mod statistics;
 pub mod synth;
 pub mod units;
-pub mod wav;
 
 pub use error::Error;

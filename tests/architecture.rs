@@ -8,94 +8,94 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// What each folder must not name. Arrows: units, statistics, physics ← detect, sequence, fit ← report ← analysis, evaluate, picture ← cli.
+/// What each folder must not name. Arrows: units, statistics, physics, audio ← detect, sequence, fit ← report ← analysis, evaluate, picture ← cli.
 const FORBIDDEN: [(&str, &[&str]); 15] = [
     (
         "physics",
         &[
-            "detect", "sequence", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
+            "detect", "sequence", "fit", "audio", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "detect",
         &[
-            "physics", "sequence", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
+            "physics", "sequence", "fit", "audio", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "sequence",
         &[
-            "detect", "fit", "wav", "report", "analysis", "synth", "evaluate", "cli",
+            "detect", "fit", "audio", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "fit",
         &[
-            "detect", "sequence", "wav", "report", "analysis", "synth", "evaluate", "cli",
+            "detect", "sequence", "audio", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "report",
         &[
-            "physics", "sequence", "wav", "analysis", "rules", "synth", "evaluate", "cli",
+            "physics", "sequence", "audio", "analysis", "rules", "synth", "evaluate", "cli",
         ],
     ),
     (
-        "wav",
+        "audio",
         &[
             "physics", "detect", "sequence", "fit", "report", "analysis", "synth", "evaluate",
             "cli",
         ],
     ),
-    ("analysis", &["wav", "rules", "synth", "evaluate", "cli"]),
+    ("analysis", &["audio", "rules", "synth", "evaluate", "cli"]),
     (
         "rules",
         &[
-            "detect", "sequence", "wav", "analysis", "solve", "synth", "evaluate", "cli",
+            "detect", "sequence", "audio", "analysis", "solve", "synth", "evaluate", "cli",
         ],
     ),
     (
         "plot",
         &[
-            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "picture",
+            "physics", "detect", "sequence", "fit", "audio", "report", "analysis", "picture",
             "solve", "synth", "cli",
         ],
     ),
     (
         "picture",
         &[
-            "detect", "sequence", "wav", "analysis", "solve", "synth", "evaluate", "cli",
+            "detect", "sequence", "audio", "analysis", "solve", "synth", "evaluate", "cli",
         ],
     ),
     (
         "solve",
         &[
-            "detect", "sequence", "fit", "wav", "analysis", "synth", "cli",
+            "detect", "sequence", "fit", "audio", "analysis", "synth", "cli",
         ],
     ),
     (
         "synth",
         &[
-            "detect", "sequence", "fit", "wav", "report", "analysis", "evaluate", "cli",
+            "detect", "sequence", "fit", "audio", "report", "analysis", "evaluate", "cli",
         ],
     ),
     (
         "evaluate",
         &[
-            "physics", "detect", "sequence", "fit", "wav", "analysis", "synth", "cli",
+            "physics", "detect", "sequence", "fit", "audio", "analysis", "synth", "cli",
         ],
     ),
     (
         "statistics.rs",
         &[
-            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "synth",
+            "physics", "detect", "sequence", "fit", "audio", "report", "analysis", "synth",
             "evaluate", "cli",
         ],
     ),
     (
         "random.rs",
         &[
-            "physics", "detect", "sequence", "fit", "wav", "report", "analysis", "synth",
+            "physics", "detect", "sequence", "fit", "audio", "report", "analysis", "synth",
             "evaluate", "cli",
         ],
     ),

@@ -9,9 +9,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
+use bounce_audio::audio;
 use bounce_audio::synth::recorder::{Channel, Encoding};
 use bounce_audio::synth::{render, scene::Scene};
-use bounce_audio::wav;
 use serde_json::Value;
 
 const SCENE: &str = r"
@@ -73,7 +73,7 @@ fn every_encoding_and_channel_is_written_as_it_was_made() {
         let more = format!(
             "[recorder]\nencoding = '{name}'\nchannels = [{{}}, {{ delay_s = 1e-3, inverted = true }}]"
         );
-        let read = wav::read_file(&made(&folder, &more)).unwrap();
+        let read = audio::read_file(&made(&folder, &more)).unwrap();
         let mut scene = Scene::from_toml(SCENE).unwrap();
         scene.recorder.encoding = encoding;
         scene.recorder.channels.push(Channel {

@@ -11,13 +11,13 @@
 use std::path::PathBuf;
 
 use bounce_audio::analysis::{Settings, analyze_clearest};
+use bounce_audio::audio;
 use bounce_audio::report::{Analysis, Drop, Status};
-use bounce_audio::wav;
 
 fn listen(name: &str, settings: &Settings) -> Analysis {
     let folder = std::env::var_os("BOUNCE_AUDIO_RECORDINGS")
         .expect("BOUNCE_AUDIO_RECORDINGS names their folder");
-    let recording = wav::read_file(&PathBuf::from(folder).join(name)).unwrap();
+    let recording = audio::read_file(&PathBuf::from(folder).join(name)).unwrap();
     analyze_clearest(
         &recording.channels,
         f64::from(recording.sample_rate_hz),

@@ -10,7 +10,7 @@ use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
-use bounce_audio::wav;
+use bounce_audio::audio;
 use serde_json::Value;
 
 /// What the samples of a file are: `full_scale·sin(0.05·i)` cut to whole steps where it is integers.
@@ -224,8 +224,8 @@ fn the_table_has_every_file() {
 #[test]
 fn every_sample_of_every_variant_is_read() {
     for (name, wanted, frames, encoding, warnings) in TABLE {
-        let read = wav::read_file(&path(name));
-        let trickled = wav::read(Trickle(fs::File::open(path(name)).unwrap(), 0));
+        let read = audio::read_file(&path(name));
+        let trickled = audio::read(Trickle(fs::File::open(path(name)).unwrap(), 0));
         if let Refused(reason) = wanted {
             for error in [read.unwrap_err(), trickled.unwrap_err()] {
                 assert!(error.to_string().contains(reason), "{name}: {error}");

@@ -11,9 +11,9 @@ use super::listen::{Hearing, Listening};
 use super::picture::{Target, check_readable_twice, draw_sheets};
 use super::rule::RuleArguments;
 use crate::Error;
+use crate::audio::Stream;
 use crate::report::text::Detail;
 use crate::report::{csv, json, text};
-use crate::wav::Stream;
 
 /// Analyze one recording of a bouncing ball.
 ///
@@ -71,7 +71,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     arguments.rule.complete(&mut settings);
     let hear = Hearing { settings, labels };
     let mut report = if arguments.file == Path::new("-") {
-        let open = Stream::open(io::stdin().lock());
+        let open = Stream::open(io::stdin());
         open.and_then(|stream| arguments.listening.hear(stream, "-".to_owned(), &hear))
             .map_err(|e| e.in_file("standard input"))?
     } else {

@@ -10,6 +10,7 @@ use super::picture::Target;
 use super::{Outcome, limit, output};
 use crate::Error;
 use crate::analysis::{Settings, analyze_clearest};
+use crate::audio;
 use crate::detect::refine::Timing;
 use crate::evaluate::picture;
 use crate::evaluate::reference::Reference;
@@ -19,7 +20,6 @@ use crate::evaluate::text::to_text;
 use crate::evaluate::thresholds::Thresholds;
 use crate::fit::ladder::Choice;
 use crate::units::real;
-use crate::wav;
 
 /// Measure the analyzer on recordings with known truth: error and speed of every way of timing and every model.
 ///
@@ -120,10 +120,7 @@ fn recordings(folder: &Path) -> Result<Vec<(PathBuf, Reference)>, Error> {
     let mut paths = Vec::new();
     for entry in fs::read_dir(folder).map_err(in_folder)? {
         let path = entry.map_err(in_folder)?.path();
-        if path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("wav"))
-        {
+        if audio::has_ending(&path) {
             paths.push(path);
         }
     }
@@ -176,7 +173,7 @@ fn listen(
         ..Settings::default()
     };
     let start = Instant::now();
-    let recording = wav::read_file(path)?;
+    let recording = audio::read_file(path)?;
     let rate = f64::from(recording.sample_rate_hz);
     let (_, analysis) = analyze_clearest(&recording.channels, rate, &settings)?;
     let elapsed_s = start.elapsed().as_secs_f64();

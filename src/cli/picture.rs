@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 
 use super::output;
 use crate::Error;
+use crate::audio::Stream;
 use crate::picture::sheet::sheets;
 use crate::picture::sound::Sound;
 use crate::plot::{self, Figure};
 use crate::report::Report;
-use crate::wav::Stream;
 
 /// How a picture is stored.
 #[derive(Debug, Clone, Copy)]
@@ -116,7 +116,7 @@ fn hear(file: &Path, report: &Report) -> Result<Vec<Sound>, Error> {
         numbers().min().unwrap_or(0)..numbers().max().map_or(0, |last| last + 1);
     let end_s = sounds.iter().map(Sound::end_s).fold(0.0, f64::max);
     let mut stream = Stream::open_file(file)?;
-    let end = crate::units::samples_in(end_s, f64::from(stream.container().sample_rate_hz));
+    let end = crate::units::samples_in(end_s, f64::from(stream.sample_rate_hz()));
     let mut blocks = vec![Vec::new(); channels.len()];
     let mut first = 0;
     while first < end && stream.append(&channels, &mut blocks)? {

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 
-use bounce_audio::wav;
+use bounce_audio::audio;
 
 use super::writing::{PROGRAM, content, folder, run, status};
 
@@ -86,7 +86,7 @@ fn judged(folder: &Path) -> String {
     for (name, bytes) in content(folder) {
         let whole = match name.rsplit('.').next().unwrap_or_default() {
             "partial" => true,
-            "wav" => wav::read(&bytes[..]).is_ok_and(|r| r.warnings.is_empty()),
+            "wav" => audio::read(&bytes[..]).is_ok_and(|r| r.warnings.is_empty()),
             "json" => {
                 // A truth never stands beside another recording, or alone.
                 let recording = name.replace(".truth.json", ".wav");

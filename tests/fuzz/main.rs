@@ -32,7 +32,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use bounce_audio::random::SplitMix64;
-use targets::{Target, analyze, labels, scene, units, walk};
+use targets::{Target, analyze, compressed, labels, scene, units, walk};
 
 /// What one execution may take of a processor in a long run.
 const LONGEST: Duration = Duration::from_secs(1);
@@ -118,6 +118,11 @@ fn fuzz(target: &Target, times: u64) {
 #[test]
 fn the_walk_and_the_decoders() {
     fuzz(&walk(), 3_000);
+}
+
+#[test]
+fn compressed_sound() {
+    fuzz(&compressed(), 300);
 }
 
 #[test]

@@ -1,10 +1,12 @@
 //! What is fuzzed: how an input is read, and what has to hold of the result.
 
 use std::fs;
+use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use bounce_audio::Error;
 use bounce_audio::analysis::{Listener, Settings};
+use bounce_audio::audio::{self, Stream};
 use bounce_audio::detect::refine::Timing;
 use bounce_audio::fit::ladder::Choice;
 use bounce_audio::random::SplitMix64;
@@ -14,7 +16,6 @@ use bounce_audio::synth::presets::preset;
 use bounce_audio::synth::render;
 use bounce_audio::synth::scene::Scene;
 use bounce_audio::units::{Quantity, real};
-use bounce_audio::wav::{self, Stream};
 
 use super::choose::one_of;
 
@@ -31,8 +32,8 @@ pub(crate) struct Target {
 }
 
 /// All of them.
-pub(crate) fn all() -> [Target; 5] {
-    [walk(), units(), labels(), scene(), analyze()]
+pub(crate) fn all() -> [Target; 6] {
+    [walk(), compressed(), units(), labels(), scene(), analyze()]
 }
 
 /// The walk over the chunks and all decoders.
@@ -42,13 +43,62 @@ pub(crate) fn walk() -> Target {
         valid: variants,
         words: &["data", "fmt ", "LIST", "ds64", "RF64", "RIFF", "WAVE"],
         run: |input, _| {
-            let Ok(recording) = wav::read(input) else {
+            let Ok(recording) = audio::read(input) else {
                 return;
             };
             let samples: usize = recording.channels.iter().map(Vec::len).sum();
             assert!(samples > 0 && samples <= input.len());
             let all = recording.channels.iter().flatten();
             assert!(all.copied().all(f32::is_finite));
+        },
+    }
+}
+
+/// Containers and decoders of compressed sound, as a file and as a pipe.
+pub(crate) fn compressed() -> Target {
+    Target {
+        name: "compressed",
+        valid: compressed_files,
+        words: &[
+            "OggS",
+            "ftyp",
+            "moov",
+            "mdat",
+            "stts",
+            "stsz",
+            "fLaC",
+            "ID3",
+            "\u{1}vorbis",
+            "Xing",
+            "VBRI",
+            "moof",
+        ],
+        run: |input, random| {
+            let stream = if random.next_u64().is_multiple_of(2) {
+                Stream::open_seekable(Cursor::new(input))
+            } else {
+                Stream::open(input)
+            };
+            let Ok(mut stream) = stream else {
+                return;
+            };
+            let all = 0..stream.channels();
+            let mut block = vec![Vec::new(); all.len()];
+            let mut frames = 0;
+            while stream.append(&all, &mut block).unwrap() {
+                assert!(block.iter().all(|channel| channel.len() == block[0].len()));
+                assert!(block.iter().flatten().all(|x| x.is_finite()));
+                frames += block[0].len();
+                block.iter_mut().for_each(Vec::clear);
+            }
+            let rate = f64::from(stream.sample_rate_hz());
+            let Ok(ending) = stream.finish() else {
+                return;
+            };
+            assert!(
+                (ending.duration_s - real(frames) / rate).abs() < 1e-6,
+                "{frames} {ending:?}"
+            );
         },
     }
 }
@@ -182,6 +232,24 @@ fn fixtures() -> PathBuf {
     fixtures.find(|folder| folder.is_dir()).unwrap()
 }
 
+fn compressed_files() -> Vec<Vec<u8>> {
+    let files = fs::read_dir(fixtures().join("compressed"))
+        .unwrap()
+        .map(|f| f.unwrap().path());
+    let no_text = |f: &PathBuf| {
+        !matches!(
+            f.extension().and_then(|e| e.to_str()),
+            Some("md" | "toml" | "sh")
+        )
+    };
+    let mut files: Vec<_> = files.filter(no_text).collect();
+    files.sort();
+    files
+        .into_iter()
+        .map(|file| fs::read(file).unwrap())
+        .collect()
+}
+
 fn variants() -> Vec<Vec<u8>> {
     let files = fs::read_dir(fixtures().join("wav-variants"))
         .unwrap()
@@ -244,7 +312,7 @@ fn recordings() -> Vec<Vec<u8>> {
 }
 
 fn pcm16(channels: u16, sample_rate: u32, samples: &[f32]) -> Vec<u8> {
-    let mut file = std::io::Cursor::new(Vec::new());
+    let mut file = Cursor::new(Vec::new());
     let spec = hound::WavSpec {
         channels,
         sample_rate,
@@ -295,9 +363,9 @@ fn settings(random: &mut SplitMix64) -> Settings {
 
 fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
     let mut stream = Stream::open(input)?;
-    let container = stream.container().clone();
-    let all = 0..usize::from(container.channels);
-    let sample_rate_hz = f64::from(container.sample_rate_hz);
+    let encoding = stream.encoding();
+    let all = 0..stream.channels();
+    let sample_rate_hz = f64::from(stream.sample_rate_hz());
     let mut listener = Listener::new(all.len(), sample_rate_hz, settings)?;
     while listener.push_with(|room| stream.append(&all, room))?? {}
     let ending = stream.finish()?;
@@ -310,7 +378,7 @@ fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
             channels: all.len(),
             channel: channel + 1,
             duration_s: ending.duration_s,
-            encoding: container.encoding(),
+            encoding,
         },
         settings: settings.info(),
         analysis,

@@ -7,6 +7,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
+use crate::audio;
 
 /// One input, which gets a row or more.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -79,7 +80,7 @@ impl Gathered {
         if self.is_new(path) {
             self.walk(path);
             if before == (self.reached, self.inputs.len()) {
-                let reason = "the folder holds no WAV recording, nor does any folder in it";
+                let reason = "the folder holds no recording, nor does any folder in it";
                 self.inputs
                     .push(Input::Folder(path.into(), reason.to_owned()));
             }
@@ -109,21 +110,17 @@ impl Gathered {
     }
 }
 
-/// Whether a file in a folder is meant: it begins as a WAV does, or its name says that it should, and then the reason
+/// Whether a file in a folder is meant: it begins as a recording does, or its name says that it should, and then the reason
 /// why it is none is worth a row. A hidden file (`._drop.wav`, as macOS leaves on other disks) must be one.
 fn is_recording(path: &Path) -> bool {
     let name = path.file_name().map_or(&[][..], OsStr::as_encoded_bytes);
-    let ends = |ending: &[u8]| {
-        let tail = name.len().checked_sub(ending.len()).map(|at| &name[at..]);
-        tail.is_some_and(|tail| tail.eq_ignore_ascii_case(ending))
-    };
-    let named = !name.starts_with(b".") && (ends(b".wav") || ends(b".wave"));
+    let named = !name.starts_with(b".") && audio::has_ending(path);
     // Opening a named pipe would wait for someone to write into it.
-    named || (path.is_file() && begins_as_wav(path).unwrap_or(false))
+    named || (path.is_file() && begins_as_recording(path).unwrap_or(false))
 }
 
-fn begins_as_wav(path: &Path) -> io::Result<bool> {
-    let mut head = [0; 12];
-    File::open(path)?.read_exact(&mut head)?;
-    Ok(matches!(&head[..4], b"RIFF" | b"RIFX" | b"RF64" | b"BW64") && &head[8..] == b"WAVE")
+fn begins_as_recording(path: &Path) -> io::Result<bool> {
+    let mut head = [0; audio::HEAD_BYTES];
+    let got = File::open(path)?.read(&mut head)?;
+    Ok(audio::could_be_recording(&head[..got]))
 }

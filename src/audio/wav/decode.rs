@@ -120,7 +120,7 @@ impl Frames<'_> {
 }
 
 /// A NaN would reach every sum that touches it; a zero is a sample of silence. Gives how many there were.
-fn zero_what_is_not_finite(samples: &mut [f32]) -> usize {
+pub(in crate::audio) fn zero_what_is_not_finite(samples: &mut [f32]) -> usize {
     let mut marked = 0;
     for x in samples {
         if !x.is_finite() {

@@ -1,13 +1,12 @@
 //! A WAV stream, read in blocks: what is held does not grow with its length.
 
-use std::fs::File;
 use std::io::Read;
 use std::ops::Range;
-use std::path::Path;
 
 use super::container::{Container, fill};
 use super::{decode, wav};
 use crate::Error;
+use crate::audio::Ending;
 use crate::units::real;
 
 /// Bytes read at a time: as many as a pipe holds, and their samples still fit the cache.
@@ -15,7 +14,7 @@ const BLOCK_BYTES: usize = 1 << 16;
 
 /// A WAV stream that stands at its samples.
 #[derive(Debug)]
-pub struct Stream<R> {
+pub(in crate::audio) struct Stream<R> {
     source: R,
     container: Container,
     bytes: Vec<u8>,
@@ -28,38 +27,12 @@ pub struct Stream<R> {
     not_finite: usize,
 }
 
-/// What is known of a recording once it was read.
-#[derive(Debug, Clone)]
-pub struct Ending {
-    /// Length in seconds.
-    pub duration_s: f64,
-    /// What was repaired while reading.
-    pub warnings: Vec<String>,
-}
-
-impl Stream<File> {
-    /// Opens a file.
-    ///
-    /// # Errors
-    /// [`Error::InFile`] naming the file, with the reason: it cannot be opened, is a directory, is empty, or is no WAV.
-    pub fn open_file(path: &Path) -> Result<Self, Error> {
-        let open = || -> Result<Self, Error> {
-            if path.is_dir() {
-                return Err(wav("it is a directory"));
-            }
-            // Blocks are large: a buffer in between would only copy them.
-            Self::open(File::open(path)?)
-        };
-        open().map_err(|e| e.in_file(path))
-    }
-}
-
 impl<R: Read> Stream<R> {
     /// Walks to the samples.
     ///
     /// # Errors
     /// [`Error::Wav`] if it is no WAV; [`Error::Io`] if reading fails.
-    pub fn open(mut source: R) -> Result<Self, Error> {
+    pub(in crate::audio) fn open(mut source: R) -> Result<Self, Error> {
         let container = Container::open(&mut source)?;
         let frame_bytes = container.frame_bytes();
         Ok(Self {
@@ -74,8 +47,7 @@ impl<R: Read> Stream<R> {
     }
 
     /// What the header says.
-    #[must_use]
-    pub const fn container(&self) -> &Container {
+    pub(in crate::audio) const fn container(&self) -> &Container {
         &self.container
     }
 
@@ -83,7 +55,7 @@ impl<R: Read> Stream<R> {
     ///
     /// # Errors
     /// [`Error::Io`] if reading fails.
-    pub fn append(
+    pub(in crate::audio) fn append(
         &mut self,
         channels: &Range<usize>,
         samples: &mut [Vec<f32>],
@@ -107,7 +79,7 @@ impl<R: Read> Stream<R> {
     ///
     /// # Errors
     /// [`Error::Wav`] if there was no audio; [`Error::Io`] if reading what follows it fails.
-    pub fn finish(mut self) -> Result<Ending, Error> {
+    pub(in crate::audio) fn finish(mut self) -> Result<Ending, Error> {
         if self.frames == 0 {
             return Err(wav("it holds no audio"));
         }

@@ -12,7 +12,7 @@ use crate::Error;
 
 /// How one sample is stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum SampleKind {
+pub(in crate::audio) enum SampleKind {
     /// Unsigned integer with the zero in the middle: 8 bit only.
     Unsigned8,
     /// Signed little-endian integer of 2 to 4 bytes.
@@ -29,19 +29,19 @@ pub enum SampleKind {
 
 /// Where the samples are and how they are stored; the stream stands at the first of them.
 #[derive(Debug, Clone)]
-pub struct Container {
+pub(in crate::audio) struct Container {
     /// How one sample is stored.
-    pub kind: SampleKind,
+    pub(in crate::audio) kind: SampleKind,
     /// Bytes that one sample takes.
-    pub bytes_per_sample: u16,
+    pub(in crate::audio) bytes_per_sample: u16,
     /// Channels, interleaved.
-    pub channels: u16,
+    pub(in crate::audio) channels: u16,
     /// Frames per second.
-    pub sample_rate_hz: u32,
+    pub(in crate::audio) sample_rate_hz: u32,
     /// Bytes of samples that the file claims, if it claims any.
-    pub claimed_bytes: Option<u64>,
+    pub(in crate::audio) claimed_bytes: Option<u64>,
     /// What was odd on the way here.
-    pub warnings: Vec<String>,
+    pub(in crate::audio) warnings: Vec<String>,
 }
 
 /// The longest chunk that is skipped: pictures and logs stay far below it.
@@ -54,7 +54,7 @@ impl Container {
     ///
     /// # Errors
     /// [`Error::Wav`] saying what is not a WAV about it; [`Error::Io`] if reading fails.
-    pub fn open(stream: &mut impl Read) -> Result<Self, Error> {
+    pub(super) fn open(stream: &mut impl Read) -> Result<Self, Error> {
         check_magic(stream)?;
         let (mut format, mut long) = (None, None);
         let mut odd = false;
@@ -99,14 +99,12 @@ impl Container {
     }
 
     /// Bytes of one frame: a sample of every channel.
-    #[must_use]
-    pub fn frame_bytes(&self) -> usize {
+    pub(super) fn frame_bytes(&self) -> usize {
         usize::from(self.bytes_per_sample) * usize::from(self.channels)
     }
 
     /// The storage in words, such as `16-bit integer`.
-    #[must_use]
-    pub fn encoding(&self) -> String {
+    pub(in crate::audio) fn encoding(&self) -> String {
         let kind = match self.kind {
             SampleKind::Unsigned8 | SampleKind::Signed => "integer",
             SampleKind::Float32 | SampleKind::Float64 => "float",
@@ -175,7 +173,7 @@ fn data_length(ds64: &[u8]) -> Option<u64> {
 }
 
 /// Reads until `buffer` is full or the stream ends; gives the number of bytes read.
-pub(super) fn fill(stream: &mut impl Read, buffer: &mut [u8]) -> Result<usize, Error> {
+pub(in crate::audio) fn fill(stream: &mut impl Read, buffer: &mut [u8]) -> Result<usize, Error> {
     let mut filled = 0;
     while filled < buffer.len() {
         match stream.read(&mut buffer[filled..]) {

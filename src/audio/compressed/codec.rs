@@ -1,0 +1,107 @@
+//! What decodes a packet, and what it is called.
+
+use symphonia::core::codecs::audio::well_known::{
+    CODEC_ID_AAC, CODEC_ID_ALAC, CODEC_ID_FLAC, CODEC_ID_MP3, CODEC_ID_OPUS, CODEC_ID_VORBIS,
+};
+use symphonia::core::codecs::audio::{AudioCodecParameters, AudioDecoder, AudioDecoderOptions};
+use symphonia::core::errors;
+use symphonia::default::codecs::{AacDecoder, AlacDecoder, FlacDecoder, MpaDecoder, VorbisDecoder};
+
+use crate::Error;
+use crate::audio::content::Refused;
+use crate::audio::unreadable;
+
+/// A decoder of the five that there are.
+pub(super) struct Decoder {
+    pub inner: Box<dyn AudioDecoder>,
+    name: &'static str,
+    pub is_lossy: bool,
+    bits: Option<u32>,
+}
+
+impl Decoder {
+    /// The decoder for what a container says of its sound; files of this kind end so.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] with the command that converts it, if there is none.
+    pub(super) fn new(params: &AudioCodecParameters, ending: &'static str) -> Result<Self, Error> {
+        // What an encoder added before the first sample goes, where the container says how much it is.
+        let options = AudioDecoderOptions::default().gapless(true);
+        let (made, name, is_lossy) = match params.codec {
+            CODEC_ID_AAC => (
+                AacDecoder::try_new(params, &options).map(boxed),
+                "AAC",
+                true,
+            ),
+            CODEC_ID_ALAC => (
+                AlacDecoder::try_new(params, &options).map(boxed),
+                "ALAC",
+                false,
+            ),
+            CODEC_ID_FLAC => (
+                FlacDecoder::try_new(params, &options).map(boxed),
+                "FLAC",
+                false,
+            ),
+            CODEC_ID_MP3 => (
+                MpaDecoder::try_new(params, &options).map(boxed),
+                "MP3",
+                true,
+            ),
+            CODEC_ID_VORBIS => (
+                VorbisDecoder::try_new(params, &options).map(boxed),
+                "Vorbis",
+                true,
+            ),
+            CODEC_ID_OPUS => return Err(unreadable(Refused::new("Opus", ending).sentence())),
+            _ => {
+                return Err(unreadable(
+                    Refused::new("without sound in AAC or ALAC", ending).sentence(),
+                ));
+            }
+        };
+        let inner = made.map_err(|e| refused(&e, name, ending))?;
+        let bits = match params.codec {
+            // In the sixth byte of what it says of itself.
+            CODEC_ID_ALAC => params
+                .extra_data
+                .as_ref()
+                .and_then(|d| Some(u32::from(*d.get(5)?))),
+            CODEC_ID_FLAC => inner.codec_params().bits_per_sample,
+            _ => None,
+        };
+        Ok(Self {
+            inner,
+            name,
+            is_lossy,
+            bits,
+        })
+    }
+
+    /// The storage in words, such as `16-bit FLAC` or `AAC`.
+    pub(super) fn encoding(&self) -> String {
+        match self.bits {
+            Some(bits) => format!("{bits}-bit {}", self.name),
+            None => self.name.to_owned(),
+        }
+    }
+}
+
+fn boxed(decoder: impl AudioDecoder + 'static) -> Box<dyn AudioDecoder> {
+    Box::new(decoder)
+}
+
+/// A kind of a codec that is not read, such as AAC with a second band (HE) or with more than two channels; or its
+/// header is broken.
+fn refused(error: &errors::Error, name: &str, ending: &str) -> Error {
+    match error {
+        errors::Error::Unsupported(_) if name == "AAC" => unreadable(format!(
+            "it is AAC of another kind than LC with 1 or 2 channels, which is not read; ffmpeg -i IN.{ending} OUT.wav \
+             converts it"
+        )),
+        errors::Error::Unsupported(what) => unreadable(format!(
+            "its {name} is of a kind that is not read ({what}); ffmpeg -i IN.{ending} OUT.wav may convert it"
+        )),
+        _ => unreadable(format!("the header of its {name} is damaged")),
+    }
+}

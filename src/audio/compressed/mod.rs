@@ -1,0 +1,56 @@
+//! Compressed recordings: MP4 (AAC, ALAC), ADTS (AAC), MP3, FLAC and Ogg Vorbis, in blocks.
+//!
+//! The crate symphonia has the decoders, and takes MP4 and FLAC apart. Frames of MP3 and ADTS ([`frames`]) and pages of Ogg
+//! ([`pages`]) are found here: where some are damaged, it has to be known how much sound they held, so that what comes
+//! later keeps its time. What is lost becomes silence ([`stream`]).
+//!
+//! Encoders put a little before the first sample (of MP3 576 samples and more, of AAC 1024 or 2112). Where an MP3 or an
+//! Ogg says how much, it is left out; an AAC keeps it, and all its times are later by so much. What was added at the end
+//! stays: no header's word shortens a recording.
+
+mod codec;
+mod frames;
+mod header;
+mod indexed;
+mod pages;
+mod source;
+mod stream;
+
+pub(super) use source::Source;
+pub(super) use stream::Stream;
+
+use symphonia::core::packet::Packet;
+
+use crate::Error;
+use codec::Decoder;
+
+/// Takes a container apart.
+trait Packets: Send + Sync {
+    /// What comes next.
+    ///
+    /// # Errors
+    /// [`Error::Io`] if reading fails.
+    fn next(&mut self) -> Result<Next, Error>;
+}
+
+/// What comes next in a container.
+enum Next {
+    /// A packet, after as many frames as were lost just before it.
+    Packet { packet: Packet, lost: u64 },
+    /// Something was lost here, and a mark will say how much.
+    Lost,
+    /// What came since the last mark ends at so many frames from some origin.
+    Mark(u64),
+    /// The end.
+    End,
+    /// The end, too early.
+    Cut,
+    /// The end of what has one sample rate and one number of channels.
+    Changed,
+}
+
+/// A container and what decodes its packets.
+struct Opened<'s> {
+    packets: Box<dyn Packets + 's>,
+    decoder: Decoder,
+}

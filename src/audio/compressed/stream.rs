@@ -1,0 +1,335 @@
+//! Packets into samples, in blocks, with silence for what was lost.
+
+use std::fmt;
+use std::io::Read;
+use std::ops::Range;
+
+use symphonia::core::packet::Packet;
+
+use super::codec::Decoder;
+use super::source::Source;
+use super::{Next, Opened, Packets, frames, indexed, pages};
+use crate::Error;
+use crate::audio::content::{Content, HEAD_BYTES};
+use crate::audio::wav::{fill, zero_what_is_not_finite};
+use crate::audio::{Ending, unreadable};
+use crate::units::real;
+
+/// Frames of silence that are handed over at a time.
+const BLOCK: u64 = 4_096;
+/// More than a packet of any codec holds.
+const MOST_PER_PACKET: u64 = 1 << 16;
+/// Seconds of silence that stand for lost sound, over a whole recording: a damaged number must not make hours of it.
+const MOST_SILENCE_S: u64 = 60;
+
+/// Frames that wait for a mark at most: a page holds less.
+const MOST_UNMARKED: u64 = 1 << 20;
+
+/// A compressed recording that stands at its first samples.
+pub(in crate::audio) struct Stream<'s> {
+    packets: Box<dyn Packets + 's>,
+    decoder: Decoder,
+    /// Whether the container has marks.
+    marks: bool,
+    /// Whether the length of what is lost is an estimate, from the length of frames.
+    is_estimate: bool,
+    sample_rate_hz: u32,
+    channels: usize,
+    /// Frames of silence, and after them samples, that are yet to be handed over.
+    silence: u64,
+    ready: Vec<Vec<f32>>,
+    /// Frames so far, with those that are yet to be handed over.
+    frames: u64,
+    /// Frames since the last mark, and where that was.
+    unmarked: u64,
+    mark: Option<u64>,
+    /// Frames of the last packet that could be decoded.
+    usual: u64,
+    losses: Losses,
+    end: Option<Next>,
+}
+
+/// What was lost.
+#[derive(Debug, Default)]
+struct Losses {
+    /// How many times.
+    times: u64,
+    /// Frames of silence for it.
+    frames: u64,
+    /// Where the first begins.
+    first: u64,
+    /// Samples that are no numbers.
+    not_finite: usize,
+    /// Whether there was more than what silence can stand for.
+    too_long: bool,
+}
+
+impl fmt::Debug for Stream<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Stream")
+            .field("encoding", &self.encoding())
+            .finish_non_exhaustive()
+    }
+}
+
+impl<'s> Stream<'s> {
+    /// Goes to the first sound that can be decoded.
+    ///
+    /// # Errors
+    /// [`Error::Recording`] if there is none, or it is of a kind that is not read; [`Error::Io`] if reading fails.
+    pub(in crate::audio) fn open(content: Content, source: Source<'s>) -> Result<Self, Error> {
+        let Opened { packets, decoder } = open(content, source)?;
+        let mut stream = Self {
+            packets,
+            decoder,
+            marks: content == Content::OggVorbis,
+            is_estimate: matches!(content, Content::Mp3 | Content::Adts | Content::Tagged),
+            sample_rate_hz: 0,
+            channels: 0,
+            silence: 0,
+            ready: Vec::new(),
+            frames: 0,
+            unmarked: 0,
+            mark: None,
+            usual: 0,
+            losses: Losses::default(),
+            end: None,
+        };
+        while stream.channels == 0 {
+            if stream.end.is_some() {
+                return Err(unreadable("none of its sound could be decoded"));
+            }
+            stream.step()?;
+        }
+        Ok(stream)
+    }
+
+    pub(in crate::audio) const fn sample_rate_hz(&self) -> u32 {
+        self.sample_rate_hz
+    }
+
+    pub(in crate::audio) const fn channels(&self) -> usize {
+        self.channels
+    }
+
+    pub(in crate::audio) fn encoding(&self) -> String {
+        self.decoder.encoding()
+    }
+
+    pub(in crate::audio) const fn is_lossy(&self) -> bool {
+        self.decoder.is_lossy
+    }
+
+    /// Adds the next samples of some channels to those of each; false at the end.
+    pub(in crate::audio) fn append(
+        &mut self,
+        channels: &Range<usize>,
+        samples: &mut [Vec<f32>],
+    ) -> Result<bool, Error> {
+        // What was decoded may yet get silence before it, by a mark.
+        let settled = |s: &Self| {
+            (s.unmarked == 0 || s.unmarked > MOST_UNMARKED) && (s.silence > 0 || s.has_samples())
+        };
+        while !settled(self) && self.end.is_none() {
+            self.step()?;
+        }
+        if self.silence > 0 {
+            let block = usize::try_from(self.silence.min(BLOCK)).unwrap_or(0);
+            for channel in samples {
+                channel.resize(channel.len() + block, 0.0);
+            }
+            self.silence -= block as u64;
+            return Ok(true);
+        }
+        for (out, of) in samples.iter_mut().zip(&self.ready[channels.clone()]) {
+            out.extend(of);
+        }
+        let any = self.has_samples();
+        self.ready.iter_mut().for_each(Vec::clear);
+        Ok(any)
+    }
+
+    fn has_samples(&self) -> bool {
+        self.ready
+            .first()
+            .is_some_and(|channel| !channel.is_empty())
+    }
+
+    /// Takes what comes next in the container.
+    fn step(&mut self) -> Result<(), Error> {
+        match self.packets.next()? {
+            Next::Packet { packet, lost } => {
+                if lost > 0 {
+                    self.decoder.inner.reset();
+                    self.lose(lost);
+                }
+                if self.end.is_none() {
+                    self.decode(&packet);
+                }
+            }
+            Next::Lost => self.decoder.inner.reset(),
+            Next::Mark(end) => self.place(end),
+            end => self.end = Some(end),
+        }
+        Ok(())
+    }
+
+    /// Decodes a packet; what cannot be is silence for as long as it would have been.
+    fn decode(&mut self, packet: &Packet) {
+        let Ok(decoded) = self.decoder.inner.decode(packet) else {
+            if self.marks {
+                return;
+            }
+            let lasts = if self.usual > 0 {
+                self.usual
+            } else {
+                packet.dur.get()
+            };
+            return self.lose(lasts.min(MOST_PER_PACKET));
+        };
+        let frames = decoded.frames();
+        let (rate, channels) = (decoded.spec().rate(), decoded.num_planes());
+        if self.channels == 0 {
+            (self.sample_rate_hz, self.channels) = (rate, channels);
+            self.ready = vec![Vec::new(); channels];
+        } else if (rate, channels) != (self.sample_rate_hz, self.channels) {
+            self.end = Some(Next::Changed);
+            return;
+        }
+        let mut planes: Vec<Vec<f32>> = Vec::new();
+        decoded.copy_to_vecs_planar(&mut planes);
+        for (ready, plane) in self.ready.iter_mut().zip(&mut planes) {
+            self.losses.not_finite += zero_what_is_not_finite(plane);
+            ready.append(plane);
+        }
+        self.usual = frames as u64;
+        self.frames += self.usual;
+        if self.marks {
+            self.unmarked += self.usual;
+        }
+    }
+
+    /// Silence for so many frames, before what is ready.
+    fn lose(&mut self, frames: u64) {
+        // Before the first samples their rate is not known.
+        let rate = u64::from(self.sample_rate_hz.max(8_000));
+        if self.losses.frames + frames > MOST_SILENCE_S * rate {
+            self.losses.too_long = true;
+            self.end = Some(Next::End);
+            self.frames -= self.unmarked;
+            self.ready.iter_mut().for_each(Vec::clear);
+            return;
+        }
+        if self.losses.times == 0 {
+            self.losses.first = self.frames - self.unmarked;
+        }
+        self.losses.times += 1;
+        self.losses.frames += frames;
+        self.silence += frames;
+        self.frames += frames;
+    }
+
+    /// What came since the last mark ends here: what is missing was lost before it.
+    fn place(&mut self, end: u64) {
+        if self.unmarked == 0 && self.mark.is_none() {
+            // The headers of a stream have marks, which say nothing.
+            return;
+        }
+        let due = self.mark.map(|mark| mark.saturating_add(self.unmarked));
+        let missing = due.map_or(0, |due| end.saturating_sub(due));
+        if missing > 0 {
+            self.lose(missing);
+        }
+        self.mark = Some(end);
+        self.unmarked = 0;
+    }
+
+    /// What is known after the last block.
+    pub(in crate::audio) fn finish(self) -> Ending {
+        let at = |frames: u64| real_s(frames, self.sample_rate_hz);
+        let mut warnings = Vec::new();
+        let losses = &self.losses;
+        if losses.times > 0 {
+            warnings.push(format!(
+                "sound is damaged in {} places, the first at {:.3} s; {:.3} s of it are silence now, so that what follows \
+                 keeps its time{}",
+                losses.times,
+                at(losses.first),
+                at(losses.frames),
+                if self.is_estimate { ", to a frame or so where frames differ in length" } else { "" }
+            ));
+        }
+        if losses.not_finite > 0 {
+            warnings.push(format!(
+                "samples that are not finite numbers were read as zero: {}",
+                losses.not_finite
+            ));
+        }
+        let ended = match &self.end {
+            _ if losses.too_long => Some(format!(
+                "more than {MOST_SILENCE_S} s of its sound are missing"
+            )),
+            Some(Next::Cut) => Some("the file is cut or broken".to_owned()),
+            Some(Next::Changed) => {
+                Some("the sample rate, the channels or the stream change".to_owned())
+            }
+            _ => None,
+        };
+        let ended = ended.map(|why| {
+            format!(
+                "{why} at {:.3} s; only what comes before was read",
+                at(self.frames)
+            )
+        });
+        warnings.extend(ended);
+        Ending {
+            duration_s: at(self.frames),
+            warnings,
+        }
+    }
+}
+
+fn real_s(frames: u64, sample_rate_hz: u32) -> f64 {
+    usize::try_from(frames).map_or(f64::INFINITY, real) / f64::from(sample_rate_hz)
+}
+
+/// Goes to what is in a container, past the tags before it.
+fn open(content: Content, source: Source<'_>) -> Result<Opened<'_>, Error> {
+    match content {
+        Content::Mp4 => indexed::mp4(source),
+        Content::Flac => indexed::flac(source),
+        Content::OggVorbis => pages::vorbis(source),
+        Content::Adts => frames::adts(source),
+        Content::Tagged => behind_tag(source),
+        // A WAV or what is refused does not come here.
+        Content::Mp3 | Content::Wav | Content::Refused(_) => frames::mp3(source),
+    }
+}
+
+/// Skips an `ID3v2` tag, pictures and all; another may follow.
+fn behind_tag(mut source: Source<'_>) -> Result<Opened<'_>, Error> {
+    loop {
+        let mut head = [0; 10];
+        fill(&mut source, &mut head)?;
+        // Seven bits of each byte count.
+        let length = head[6..]
+            .iter()
+            .fold(0, |sum, byte| sum << 7 | u64::from(byte & 0x7F));
+        let footer = if head[5] & 0x10 == 0 { 0 } else { 10 };
+        std::io::copy(
+            &mut (&mut source).take(length + footer),
+            &mut std::io::sink(),
+        )?;
+        let mut next = vec![0; HEAD_BYTES];
+        let got = fill(&mut source, &mut next)?;
+        next.truncate(got);
+        let content = Content::of(&next);
+        source = Source::Pipe(Box::new(std::io::Cursor::new(next).chain(source)));
+        match content {
+            Content::Tagged => {}
+            Content::Flac | Content::Adts => return open(content, source),
+            // Padding may follow the tag, which the search for the first frame passes.
+            _ => return frames::mp3(source),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! From the bytes of a recording to the samples of each channel, in blocks.
+//!
+//! What a recording is says its content, never its name ([`content`]). WAV is read by [`wav`] and what is compressed by
+//! [`compressed`]; a [`Stream`] is either, and holds a block of it, whatever its length. [`read_file`] holds a whole
+//! recording in memory.
+
+mod compressed;
+mod content;
+mod stream;
+mod wav;
+
+use std::io::Read;
+use std::path::Path;
+
+pub use content::{HEAD_BYTES, could_be_recording, has_ending};
+pub use stream::Stream;
+
+use crate::Error;
+
+/// A recording in memory: one vector of samples for each channel, full scale being ±1.
+#[derive(Debug, Clone)]
+pub struct Recording {
+    /// Samples per second of each channel.
+    pub sample_rate_hz: u32,
+    /// One vector of samples for each channel, all of one length.
+    pub channels: Vec<Vec<f32>>,
+    /// How the samples were stored, for instance `16-bit integer` or `AAC`.
+    pub encoding: String,
+    /// Whether something was thrown away when they were stored.
+    pub lossy: bool,
+    /// What was repaired while reading.
+    pub warnings: Vec<String>,
+}
+
+/// What is known of a recording once it was read.
+#[derive(Debug, Clone)]
+pub struct Ending {
+    /// Length in seconds.
+    pub duration_s: f64,
+    /// What was repaired while reading.
+    pub warnings: Vec<String>,
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// [`Error::InFile`] naming the file, with the reason: it cannot be opened, is a directory, is empty, is no recording
+/// that can be read, or holds no audio.
+pub fn read_file(path: &Path) -> Result<Recording, Error> {
+    whole(Stream::open_file(path)?).map_err(|e| e.in_file(path))
+}
+
+/// Reads a stream to its end.
+///
+/// # Errors
+/// [`Error::Wav`] or [`Error::Recording`] if it cannot be read or holds no audio; [`Error::Io`] if reading fails.
+pub fn read(source: impl Read + Send + Sync) -> Result<Recording, Error> {
+    whole(Stream::open(source)?)
+}
+
+fn whole(mut stream: Stream<'_>) -> Result<Recording, Error> {
+    let mut channels = vec![Vec::new(); stream.channels()];
+    let all = 0..channels.len();
+    while stream.append(&all, &mut channels)? {}
+    let (sample_rate_hz, encoding) = (stream.sample_rate_hz(), stream.encoding());
+    let lossy = stream.is_lossy();
+    Ok(Recording {
+        sample_rate_hz,
+        channels,
+        encoding,
+        lossy,
+        warnings: stream.finish()?.warnings,
+    })
+}
+
+/// An [`Error::Recording`] for a problem.
+fn unreadable(problem: impl Into<String>) -> Error {
+    Error::Recording {
+        problem: problem.into(),
+    }
+}
