@@ -298,7 +298,7 @@ fn recordings() -> Vec<Vec<u8>> {
 }
 
 fn pcm16(channels: u16, sample_rate: u32, samples: &[f32]) -> Vec<u8> {
-    let mut file = std::io::Cursor::new(Vec::new());
+    let mut file = Cursor::new(Vec::new());
     let spec = hound::WavSpec {
         channels,
         sample_rate,
