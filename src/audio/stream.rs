@@ -17,10 +17,6 @@ pub struct Stream<'s> {
     form: Form<'s>,
 }
 
-#[expect(
-    clippy::large_enum_variant,
-    reason = "there is one of them for each recording"
-)]
 enum Form<'s> {
     Wav(wav::Stream<Box<dyn Read + Send + Sync + 's>>),
     Compressed(compressed::Stream<'s>),

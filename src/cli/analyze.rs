@@ -27,9 +27,10 @@ use crate::report::{csv, json, text};
   bounce-audio analyze drop.wav --labels drop.txt       (open both in Audacity, edit, export the labels)
   bounce-audio analyze drop.wav --impacts drop.txt      (fit what was edited)
   bounce-audio analyze drop.wav --rule ittf-ball
-  sox drop.mp3 -t wav - | bounce-audio analyze -")]
+  bounce-audio analyze voice-memo.m4a
+  ffmpeg -i drop.opus -f wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
-    /// A WAV file, or - for standard input
+    /// A recording (WAV, FLAC, M4A, MP3, AAC, Ogg Vorbis), or - for standard input
     file: PathBuf,
     #[command(flatten)]
     listening: Listening,

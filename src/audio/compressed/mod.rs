@@ -10,6 +10,7 @@
 
 mod codec;
 mod frames;
+mod guard;
 mod header;
 mod indexed;
 mod pages;

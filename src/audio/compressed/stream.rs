@@ -7,6 +7,7 @@ use std::ops::Range;
 use symphonia::core::packet::Packet;
 
 use super::codec::Decoder;
+use super::guard::guarded;
 use super::source::Source;
 use super::{Next, Opened, Packets, frames, indexed, pages};
 use crate::Error;
@@ -78,7 +79,9 @@ impl<'s> Stream<'s> {
     /// # Errors
     /// [`Error::Recording`] if there is none, or it is of a kind that is not read; [`Error::Io`] if reading fails.
     pub(in crate::audio) fn open(content: Content, source: Source<'s>) -> Result<Self, Error> {
-        let Opened { packets, decoder } = open(content, source)?;
+        let broken = || unreadable("its header is damaged beyond what can be read");
+        let opened = guarded(|| open(content, source)).ok_or_else(broken)?;
+        let Opened { packets, decoder } = opened?;
         let mut stream = Self {
             packets,
             decoder,
@@ -157,7 +160,7 @@ impl<'s> Stream<'s> {
 
     /// Takes what comes next in the container.
     fn step(&mut self) -> Result<(), Error> {
-        match self.packets.next()? {
+        match guarded(|| self.packets.next()).unwrap_or(Ok(Next::Cut))? {
             Next::Packet { packet, lost } => {
                 if lost > 0 {
                     self.decoder.inner.reset();
@@ -176,7 +179,11 @@ impl<'s> Stream<'s> {
 
     /// Decodes a packet; what cannot be is silence for as long as it would have been.
     fn decode(&mut self, packet: &Packet) {
-        let Ok(decoded) = self.decoder.inner.decode(packet) else {
+        let Some(decoded) = guarded(|| self.decoder.inner.decode(packet)) else {
+            self.end = Some(Next::Cut);
+            return;
+        };
+        let Ok(decoded) = decoded else {
             if self.marks {
                 return;
             }

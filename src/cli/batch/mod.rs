@@ -34,7 +34,7 @@ use rows_file::{Resumed, RowsFile, check_is_file, partial};
 
 /// Analyze many recordings: files, and folders with all that is in them.
 ///
-/// One row per drop, in the order of the files, which are those named and the WAV recordings of each folder by name. A
+/// One row per drop, in the order of the files, which are those named and the recordings of each folder by name. A
 /// file without a drop or with an error has one row with the reason. At the end, standard error says e of each file,
 /// their mean, whether they differ by more than their errors claim, and which are far from the rest.
 ///
@@ -51,7 +51,7 @@ A table for --options has a line per file; what is empty is as for all:
   ball-1.wav,30.5cm,2.7g,40mm
   tuesday/ball-1.wav,12in,,")]
 pub(super) struct Arguments {
-    /// WAV files, and folders that hold some
+    /// Recordings, and folders that hold some
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// How many recordings to listen to at once [default: one for each core]
