@@ -16,7 +16,7 @@ pub fn interpolated(values: &[f64], position: f64) -> f64 {
 #[must_use]
 pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
     let (first, kernel) = kernel(position);
-    if position == position.floor() {
+    if position.fract() == 0.0 {
         // At a sample the kernel is 1 there and 0 at all others.
         return padded(samples, first + KERNEL.cast_signed() - 1, length);
     }
