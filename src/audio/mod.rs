@@ -1,7 +1,7 @@
 //! From the bytes of a recording to the samples of each channel, in blocks.
 //!
-//! What a recording is says its content, never its name ([`content`]). WAV is read by [`wav`] and what is compressed by
-//! [`compressed`]; a [`Stream`] is either, and holds a block of it, whatever its length. [`read_file`] holds a whole
+//! What a recording is says its content, never its name (`content`). WAV is read by `wav` and what is compressed by
+//! `compressed`; a [`Stream`] is either, and holds a block of it, whatever its length. [`read_file`] holds a whole
 //! recording in memory.
 
 mod compressed;
