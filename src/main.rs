@@ -2,12 +2,14 @@
 #![expect(clippy::print_stderr, reason = "this is the one place that prints")]
 
 use std::io::{ErrorKind, Write};
+use std::panic;
 use std::process::ExitCode;
 
 use bounce_audio::Error;
 use bounce_audio::cli::{Outcome, run};
 
 fn main() -> ExitCode {
+    spare_what_is_caught();
     match run().and_then(|outcome| print(&outcome)) {
         Ok(code) => code,
         Err(error) => {
@@ -15,6 +17,19 @@ fn main() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Keeps quiet about panics of the decoders: they are caught, and told as damage of the file.
+fn spare_what_is_caught() {
+    let usual = panic::take_hook();
+    panic::set_hook(Box::new(move |info| {
+        let of_decoder = info
+            .location()
+            .is_some_and(|at| at.file().contains("symphonia"));
+        if !of_decoder {
+            usual(info);
+        }
+    }));
 }
 
 fn print(outcome: &Outcome) -> Result<ExitCode, Error> {

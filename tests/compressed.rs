@@ -265,6 +265,19 @@ fn what_is_not_read_says_what_converts_it() {
     }
 }
 
+#[test]
+fn a_mistake_of_a_decoder_is_one_sentence() {
+    // In it symphonia asserts something that does not hold; found by `tests/fuzz`.
+    let file = "../crashes/compressed/mp4-overflow-90194350993";
+    let output = run(&path(""), &["analyze", file], &[]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        said.lines().count() == 1 && said.contains("none of its sound"),
+        "{said}"
+    );
+}
+
 fn run(folder: &Path, arguments: &[&str], input: &[u8]) -> Output {
     let mut child = Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
         .args(arguments)
