@@ -34,7 +34,7 @@ pub enum Error {
         /// What is wrong with it.
         problem: String,
     },
-    /// A recording that is no WAV cannot be read.
+    /// What is no WAV cannot be read.
     #[error("not a readable recording: {problem}")]
     Recording {
         /// Why not, and what converts it.

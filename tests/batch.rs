@@ -123,7 +123,7 @@ fn a_line_is_the_document_of_analyze() {
         assert_eq!(lines[line], document, "{file}");
     }
     assert_eq!(lines[1]["file"], "empty.wav");
-    assert_eq!(lines[1]["error"], "not a readable WAV: it is empty");
+    assert_eq!(lines[1]["error"], "not a readable recording: it is empty");
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn a_bad_file_costs_one_row_with_its_reason() {
     let said = text(&output.stderr);
     assert!(said.contains("without a drop: 1; failed: 3"), "{said}");
     assert!(
-        said.contains("./a.wav: failed: not a readable WAV: it is empty"),
+        said.contains("./a.wav: failed: not a readable recording: it is empty"),
         "{said}"
     );
 }

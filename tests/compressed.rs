@@ -244,7 +244,7 @@ fn what_is_not_read_says_what_converts_it() {
         ("refused.amr", "AMR", "ffmpeg -i IN.amr OUT.wav"),
         (
             "refused-amr.3gp",
-            "without sound in AAC or ALAC",
+            "without AAC or ALAC (it may hold AMR",
             "ffmpeg -i IN.mp4 OUT.wav",
         ),
         ("refused.wma", "Windows Media", "ffmpeg -i IN.wma OUT.wav"),
@@ -339,6 +339,10 @@ fn commands_take_them_by_content_and_say_what_is_lossy() {
 
     let output = run(&folder, &["analyze", "c"], &[]);
     assert!(!String::from_utf8_lossy(&output.stdout).contains("with loss"));
+    let rows = run(&folder, &["batch", "b.mp3", "c"], &[]);
+    let rows = String::from_utf8(rows.stdout).unwrap();
+    let is_lossy: Vec<bool> = rows.lines().map(|row| row.contains("lossy")).collect();
+    assert_eq!(is_lossy, [false, true, false], "{rows}");
     let output = run(&folder, &["batch", ".", "--format", "ndjson"], &[]);
     let lines = String::from_utf8(output.stdout).unwrap();
     let lines: Vec<Value> = lines

@@ -166,3 +166,14 @@ fn a_recording_does_not_go_into_a_pipe() {
     let line = "synth --preset dead -o /dev/stdout";
     assert_refused(&run(&folder, line), line, "to a file and not to a pipe");
 }
+
+/// An error that nobody can read is an error all the same, and no panic.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_error_leaves_the_status() {
+    let folder = folder("stderr");
+    let full = fs::OpenOptions::new().write(true).open("/dev/full");
+    let mut command = command(&folder, "analyze missing.wav");
+    let status = command.stderr(full.unwrap()).status().unwrap();
+    assert_eq!(status.code(), Some(2));
+}

@@ -40,7 +40,7 @@ impl Stream<'static> {
     pub fn open_file(path: &Path) -> Result<Self, Error> {
         let open = || -> Result<Self, Error> {
             if path.is_dir() {
-                return Err(Error::Wav {
+                return Err(Error::Recording {
                     problem: "it is a directory".to_owned(),
                 });
             }

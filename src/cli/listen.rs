@@ -220,8 +220,8 @@ impl Listening {
 /// What compression costs; `docs/compressed.md` has the figures.
 fn of_lossy(encoding: &str) -> report::Warning {
     let message = format!(
-        "the recording is compressed with loss ({encoding}), which may move an impact by 0.01 ms, by 1 ms where there is \
-         noise, and swallow faint ones: at 64 kbit/s e may be off by more than its error says. Record WAV, FLAC or ALAC"
+        "the recording is compressed with loss ({encoding}), which may move an impact by 0.01 ms, by 2 ms where there is \
+         noise, and swallow faint ones: e may be off by more than its error says. Record WAV, FLAC or ALAC"
     );
     report::Warning::new("lossy", message)
 }

@@ -1,7 +1,7 @@
 //! Many reports as one table: a row per drop, and one for a recording that has none.
 
 use super::csv::{cell, quoted};
-use super::{Drop, Report};
+use super::{Drop, Report, Warning};
 use crate::fit::Estimate;
 
 /// The columns, in order.
@@ -92,7 +92,8 @@ pub fn rows(report: &Report) -> String {
     let row = |(i, drop): (usize, &Drop)| {
         let number = (i + 1).to_string();
         let head = head(&report.file, &number, drops.len(), status::DROP, "");
-        joined(&[&head[..], &measured(drop), &tail(drop.channel)])
+        let measured = measured(drop, &report.analysis.warnings);
+        joined(&[&head[..], &measured, &tail(drop.channel)])
     };
     drops.iter().enumerate().map(row).collect()
 }
@@ -122,12 +123,14 @@ fn joined(parts: &[&[String]]) -> String {
     parts.concat().join(",") + "\n"
 }
 
-fn measured(drop: &Drop) -> Vec<String> {
+/// What was measured of a drop, with the warnings of it and of its whole recording.
+fn measured(drop: &Drop, of_recording: &[Warning]) -> Vec<String> {
     let e = drop.restitution.as_ref();
     let interval = e.and_then(|e| e.estimate.interval95);
     let estimates = &drop.estimates;
     let ball = drop.ball.as_ref();
-    let warnings: Vec<&str> = drop.warnings.iter().map(|w| w.code).collect();
+    let warnings = drop.warnings.iter().chain(of_recording);
+    let warnings: Vec<&str> = warnings.map(|w| w.code).collect();
     let mut cells = Vec::from(with_std(e.map(|e| e.estimate)));
     cells.extend([
         cell(interval.map(|i| i[0])),

@@ -56,7 +56,11 @@ impl Decoder {
             CODEC_ID_OPUS => return Err(unreadable(Refused::new("Opus", ending).sentence())),
             _ => {
                 return Err(unreadable(
-                    Refused::new("without sound in AAC or ALAC", ending).sentence(),
+                    Refused::new(
+                        "an MP4 without AAC or ALAC (it may hold AMR, Opus, or no sound)",
+                        ending,
+                    )
+                    .sentence(),
                 ));
             }
         };

@@ -68,7 +68,15 @@ fn opened<'s>(
     ending: &'static str,
     placed: bool,
 ) -> Result<Opened<'s>, Error> {
-    let none = || unreadable(Refused::new("without sound in AAC or ALAC", ending).sentence());
+    let none = || {
+        unreadable(
+            Refused::new(
+                "an MP4 without AAC or ALAC (it may hold AMR, Opus, or no sound)",
+                ending,
+            )
+            .sentence(),
+        )
+    };
     let (track, params) = sound(&*reader).ok_or_else(none)?;
     let decoder = Decoder::new(&params, ending)?;
     let expected = None;

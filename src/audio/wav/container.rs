@@ -115,15 +115,24 @@ impl Container {
     }
 }
 
+/// An [`Error::Recording`] for what is no WAV at all.
+fn recording(problem: &str) -> Error {
+    Error::Recording {
+        problem: problem.to_owned(),
+    }
+}
+
 /// RIFF, or one of its forms with lengths of 64 bits: RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088).
 fn check_magic(stream: &mut impl Read) -> Result<(), Error> {
     let mut magic = [0; 12];
     let got = fill(stream, &mut magic)?;
     match (&magic[..4], &magic[8..]) {
-        _ if got == 0 => Err(wav("it is empty")),
+        _ if got == 0 => Err(recording("it is empty")),
         (b"RIFF" | b"RF64" | b"BW64", b"WAVE") => Ok(()),
         (b"RIFX", _) => Err(wav("it is RIFX (big-endian), not RIFF")),
-        _ => Err(wav("it does not start with RIFF and WAVE")),
+        _ => Err(recording(
+            "it begins like none of WAV, FLAC, MP4, AAC, MP3 and Ogg Vorbis",
+        )),
     }
 }
 

@@ -42,7 +42,7 @@ use rows_file::{Resumed, RowsFile, check_is_file, partial};
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   bounce-audio batch recordings --height 30.5cm -o drops.csv
-  bounce-audio batch recordings --pattern 'ball-{height}-{n}.wav'
+  bounce-audio batch recordings --pattern 'ball-{height}-{number}.wav'
   bounce-audio batch recordings --options balls.csv --format ndjson
   bounce-audio batch recordings -o drops.csv --resume
 
