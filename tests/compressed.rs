@@ -7,14 +7,18 @@
 )]
 
 use std::fs;
-use std::io::{Cursor, Read, Write};
+use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Command;
 use std::sync::LazyLock;
 
 use bounce_audio::analysis::{Settings, analyze};
 use bounce_audio::audio::{self, Recording, Stream};
 use serde_json::Value;
+
+#[path = "common/piped.rs"]
+mod piped;
+use piped::piped;
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -269,27 +273,13 @@ fn what_is_not_read_says_what_converts_it() {
 fn a_mistake_of_a_decoder_is_one_sentence() {
     // In it symphonia asserts something that does not hold; found by `tests/fuzz`.
     let file = "../crashes/compressed/mp4-overflow-90194350993";
-    let output = run(&path(""), &["analyze", file], &[]);
+    let output = piped(&path(""), &["analyze", file], &[]);
     assert_eq!(output.status.code(), Some(2));
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(
         said.lines().count() == 1 && said.contains("none of its sound"),
         "{said}"
     );
-}
-
-fn run(folder: &Path, arguments: &[&str], input: &[u8]) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
-        .args(arguments)
-        .current_dir(folder)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // The command may have seen enough before the end.
-    drop(child.stdin.take().unwrap().write_all(input));
-    child.wait_with_output().unwrap()
 }
 
 /// A new folder with some of the files, under other names.
@@ -314,7 +304,7 @@ fn commands_take_them_by_content_and_say_what_is_lossy() {
         ("refused.amr", "d.amr"),
     ];
     let folder = folder("commands", &files);
-    let output = run(
+    let output = piped(
         &folder,
         &["analyze", "a.wav", "--format", "json", "--plot", "a.svg"],
         &[],
@@ -323,27 +313,27 @@ fn commands_take_them_by_content_and_say_what_is_lossy() {
     assert_eq!(document["recording"]["encoding"], "AAC");
     assert_eq!(document["warnings"][0]["code"], "lossy");
     assert!(folder.join("a.svg").is_file());
-    let mut piped = run(
+    let mut from_pipe = piped(
         &folder,
         &["analyze", "-", "--format", "json"],
         &bytes("drop.m4a"),
     );
-    piped.stdout = String::from_utf8(piped.stdout)
+    from_pipe.stdout = String::from_utf8(from_pipe.stdout)
         .unwrap()
         .replace("\"-\"", "\"a.wav\"")
         .into_bytes();
     assert_eq!(
-        serde_json::from_slice::<Value>(&piped.stdout).unwrap(),
+        serde_json::from_slice::<Value>(&from_pipe.stdout).unwrap(),
         document
     );
 
-    let output = run(&folder, &["analyze", "c"], &[]);
+    let output = piped(&folder, &["analyze", "c"], &[]);
     assert!(!String::from_utf8_lossy(&output.stdout).contains("with loss"));
-    let rows = run(&folder, &["batch", "b.mp3", "c"], &[]);
+    let rows = piped(&folder, &["batch", "b.mp3", "c"], &[]);
     let rows = String::from_utf8(rows.stdout).unwrap();
     let is_lossy: Vec<bool> = rows.lines().map(|row| row.contains("lossy")).collect();
     assert_eq!(is_lossy, [false, true, false], "{rows}");
-    let output = run(&folder, &["batch", ".", "--format", "ndjson"], &[]);
+    let output = piped(&folder, &["batch", ".", "--format", "ndjson"], &[]);
     let lines = String::from_utf8(output.stdout).unwrap();
     let lines: Vec<Value> = lines
         .lines()

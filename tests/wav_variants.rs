@@ -6,12 +6,16 @@
 )]
 
 use std::fs;
-use std::io::{Read, Write};
+use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::Output;
 
 use bounce_audio::audio;
 use serde_json::Value;
+
+#[path = "common/piped.rs"]
+mod piped;
+use piped::piped;
 
 /// What the samples of a file are: `full_scale·sin(0.05·i)` cut to whole steps where it is integers.
 #[derive(Debug, Clone, Copy)]
@@ -293,16 +297,11 @@ fn check_samples(name: &str, wanted: Wanted, frames: usize, channels: &[Vec<f32>
 }
 
 fn analyze(file: &str, input: &[u8]) -> Output {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
-        .args(["analyze", file, "--format", "json"])
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .unwrap();
-    // The command may have seen enough before the end.
-    drop(child.stdin.take().unwrap().write_all(input));
-    child.wait_with_output().unwrap()
+    piped(
+        Path::new("."),
+        &["analyze", file, "--format", "json"],
+        input,
+    )
 }
 
 #[test]

@@ -40,9 +40,7 @@ impl Stream<'static> {
     pub fn open_file(path: &Path) -> Result<Self, Error> {
         let open = || -> Result<Self, Error> {
             if path.is_dir() {
-                return Err(Error::Recording {
-                    problem: "it is a directory".to_owned(),
-                });
+                return Err(unreadable("it is a directory"));
             }
             let file = File::open(path)?;
             if file.metadata()?.is_file() {

@@ -11,7 +11,9 @@ pub mod peaks;
 pub mod quiet;
 pub mod refine;
 pub mod rise;
+mod rounding;
 mod voice;
+mod windows;
 
 use crate::Error;
 use crate::units::{real, samples_in};

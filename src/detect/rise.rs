@@ -2,6 +2,8 @@
 
 use super::filterbank::{Band, Filterbank};
 use super::logarithm::ln_from_one;
+use super::rounding::rounding_density;
+use super::windows::{FALLING_SHARE, narrow, rises};
 use crate::units::real;
 
 /// Shortest window after the moment, in seconds: the ring of one impact lasts longer.
@@ -197,104 +199,6 @@ impl Rise {
     }
 }
 
-/// The step of a recording of 8 bits; what differs by more (clicks in digital silence) was not rounded to it.
-const COARSEST_STEP: f32 = 1.0 / 128.0;
-
-/// Energy per Hz of the noise that rounding makes.
-///
-/// # Formula
-/// `q²/12` over half the rate, q being the recording's step: the smallest difference of neighbouring samples. Between
-/// the sounds of a coarse recording a few samples toggle by one step and the rest are equal, so no quantile of its
-/// energy knows this.
-fn rounding_density(samples: &[f32], bank: &Filterbank) -> f64 {
-    // Without branches, in lanes: it is one of the few things that look at every sample.
-    let mut least = [f32::INFINITY; LANES];
-    let next = samples.get(1..).unwrap_or_default();
-    let (chunks, rest) = next.as_chunks::<LANES>();
-    for (later, earlier) in chunks.iter().zip(samples.as_chunks::<LANES>().0) {
-        for (least, (b, a)) in least.iter_mut().zip(later.iter().zip(earlier)) {
-            *least = smaller_step(*least, b - a);
-        }
-    }
-    let tail = samples[samples.len() - samples.len().min(rest.len() + 1)..].windows(2);
-    let least = tail.map(|w| w[1] - w[0]).chain(least);
-    let step = least.fold(f32::INFINITY, smaller_step);
-    if step <= COARSEST_STEP {
-        f64::from(step).powi(2) / 12.0 / (0.5 * bank.sample_rate_hz())
-    } else {
-        0.0
-    }
-}
-
-/// Lanes that run side by side in the machine's vectors.
-const LANES: usize = 8;
-
-/// The smaller of a step and the size of a difference that is not 0.
-fn smaller_step(step: f32, difference: f32) -> f32 {
-    let size = difference.abs();
-    let size = if size > 0.0 { size } else { f32::INFINITY };
-    if size < step { size } else { step }
-}
-
-/// Values of equal weight that a window with linearly falling weights is worth: (Σw)²/Σw² = ¾ of its length.
-const FALLING_SHARE: f64 = 0.75;
-
-/// `(A + floor)/(B + floor)` at each hop: A is the mean of the `after` energies from it on, with weights that fall
-/// linearly to nothing, B the mean of the `before` energies before it.
-///
-/// What is nearest counts most in A, so it is greatest where a sound begins and not anywhere before it. The recording's
-/// first instants have no past: nothing can be said to have risen, and the ratio is 0.
-fn rises(energies: &[f32], after: usize, before: usize, floor: f32) -> Vec<f32> {
-    let mut ratios = falling_means(energies, after);
-    let hops = ratios.len();
-    ratios[..before.min(hops)].fill(0.0);
-    let mean = 1.0 / real(before);
-    let mut sum: f64 = energies.iter().take(before).copied().map(f64::from).sum();
-    let newest = energies.get(before..).unwrap_or_default();
-    let pairs = energies.chunks(AT_ONCE).zip(newest.chunks(AT_ONCE));
-    let after = ratios.get_mut(before..).unwrap_or_default();
-    for (ratios, (oldest, newest)) in after.chunks_mut(AT_ONCE).zip(pairs) {
-        let mut past = [0.0; AT_ONCE];
-        for (past, (&oldest, &newest)) in past.iter_mut().zip(oldest.iter().zip(newest)) {
-            *past = narrow((sum * mean).max(0.0));
-            sum += f64::from(newest) - f64::from(oldest);
-        }
-        for (ratio, past) in ratios.iter_mut().zip(past) {
-            *ratio = (*ratio + floor) / (past + floor);
-        }
-    }
-    ratios
-}
-
-/// Values of which the part that runs side by side is computed together.
-const AT_ONCE: usize = 64;
-
-/// Mean of the `window` values from each one on, with weights that fall linearly to nothing.
-fn falling_means(energies: &[f32], window: usize) -> Vec<f32> {
-    let length = real(window);
-    let scale = 2.0 / (length * real(window + 1));
-    let (mut flat, mut falling) = (0.0, 0.0);
-    let mut means = vec![0.0; energies.len()];
-    let mut step_back = |mean: &mut f32, energy: f32, left: f32| {
-        let energy = f64::from(energy);
-        // One step earlier every weight but the newest falls by one.
-        falling += length * energy - flat;
-        flat += energy - f64::from(left);
-        *mean = narrow((scale * falling).max(0.0));
-    };
-    // What leaves the window as it moves one step earlier: nothing while it reaches past the end.
-    let whole = energies.len().saturating_sub(window);
-    let past_end = means[whole..].iter_mut().zip(&energies[whole..]);
-    for (mean, &energy) in past_end.rev() {
-        step_back(mean, energy, 0.0);
-    }
-    let inside = means[..whole].iter_mut().zip(energies);
-    for ((mean, &energy), &left) in inside.zip(&energies[energies.len() - whole..]).rev() {
-        step_back(mean, energy, left);
-    }
-    means
-}
-
 /// The formula of [`Evidence::of`] as a function of A/B alone.
 #[derive(Debug, Clone, Copy)]
 struct LogRatio {
@@ -337,54 +241,9 @@ fn quantile(values: &[f32], share: f64) -> f32 {
     *some.select_nth_unstable_by(index, f32::total_cmp).1
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "evidence and energies need no more than an f32"
-)]
-const fn narrow(x: f64) -> f32 {
-    x as f32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn running_means_are_those_of_the_definition() {
-        let mut rng = crate::random::SplitMix64::new(4);
-        let energies: Vec<f32> = (0..200).map(|_| narrow(rng.uniform())).collect();
-        for window in [2, 3, 17, 199, 300] {
-            let floor = 0.1;
-            let (falling, ratios) = (
-                falling_means(&energies, window),
-                rises(&energies, window, window, floor),
-            );
-            for k in 0..200 {
-                let weights: f64 = (1..=window).map(real).sum();
-                let ahead = energies[k..].iter().take(window).enumerate();
-                let slow: f64 = ahead
-                    .map(|(j, &e)| real(window - j) * f64::from(e))
-                    .sum::<f64>()
-                    / weights;
-                assert!(
-                    (f64::from(falling[k]) - slow).abs() < 1e-6,
-                    "window {window}, hop {k}"
-                );
-                let behind = &energies[k.saturating_sub(window)..k];
-                let past = behind.iter().copied().map(f64::from).sum::<f64>() / real(window);
-                let floor = f64::from(floor);
-                let ratio = if k < window {
-                    0.0
-                } else {
-                    (slow + floor) / (past + floor)
-                };
-                assert!(
-                    (f64::from(ratios[k]) - ratio).abs() < 1e-6,
-                    "window {window}, hop {k}"
-                );
-            }
-        }
-    }
 
     #[test]
     fn the_beginning_of_a_sound_is_found_in_every_band() {

@@ -11,21 +11,9 @@ use super::interrupts;
 
 pub(super) const PROGRAM: &str = env!("CARGO_BIN_EXE_bounce-audio");
 
-/// Every command that writes a file, up to the file's name, and an ending that it takes.
-const WRITERS: [(&str, &str); 9] = [
-    ("synth --preset dead -o", "wav"),
-    ("analyze drop.wav --labels", "txt"),
-    ("analyze drop.wav --plot", "svg"),
-    ("analyze drop.wav --plot", "png"),
-    (
-        "solve --bounces 70 --total-time 7.5s --height 30.5cm --plot",
-        "svg",
-    ),
-    ("evaluate . --plot", "svg"),
-    ("evaluate . --tighten", "toml"),
-    ("batch drop.wav -o", "csv"),
-    ("batch drop.wav --plot", "svg"),
-];
+#[path = "../common/writers.rs"]
+mod writers;
+use writers::WRITERS;
 
 /// Something in the way of a file `OUT`.
 struct Fault {

@@ -13,6 +13,7 @@ mod frames;
 mod guard;
 mod header;
 mod indexed;
+mod opening;
 mod pages;
 mod source;
 mod stream;

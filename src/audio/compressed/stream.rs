@@ -1,18 +1,18 @@
 //! Packets into samples, in blocks, with silence for what was lost.
 
 use std::fmt;
-use std::io::Read;
 use std::ops::Range;
 
 use symphonia::core::packet::Packet;
 
 use super::codec::Decoder;
 use super::guard::guarded;
+use super::opening::open;
 use super::source::Source;
-use super::{Next, Opened, Packets, frames, indexed, pages};
+use super::{Next, Opened, Packets};
 use crate::Error;
-use crate::audio::content::{Content, HEAD_BYTES};
-use crate::audio::wav::{fill, zero_what_is_not_finite};
+use crate::audio::content::Content;
+use crate::audio::wav::zero_what_is_not_finite;
 use crate::audio::{Ending, unreadable};
 use crate::units::real;
 
@@ -298,45 +298,4 @@ impl<'s> Stream<'s> {
 
 fn real_s(frames: u64, sample_rate_hz: u32) -> f64 {
     usize::try_from(frames).map_or(f64::INFINITY, real) / f64::from(sample_rate_hz)
-}
-
-/// Goes to what is in a container, past the tags before it.
-fn open(content: Content, source: Source<'_>) -> Result<Opened<'_>, Error> {
-    match content {
-        Content::Mp4 => indexed::mp4(source),
-        Content::Flac => indexed::flac(source),
-        Content::OggVorbis => pages::vorbis(source),
-        Content::Adts => frames::adts(source),
-        Content::Tagged => behind_tag(source),
-        // A WAV or what is refused does not come here.
-        Content::Mp3 | Content::Wav | Content::Refused(_) => frames::mp3(source),
-    }
-}
-
-/// Skips an `ID3v2` tag, pictures and all; another may follow.
-fn behind_tag(mut source: Source<'_>) -> Result<Opened<'_>, Error> {
-    loop {
-        let mut head = [0; 10];
-        fill(&mut source, &mut head)?;
-        // Seven bits of each byte count.
-        let length = head[6..]
-            .iter()
-            .fold(0, |sum, byte| sum << 7 | u64::from(byte & 0x7F));
-        let footer = if head[5] & 0x10 == 0 { 0 } else { 10 };
-        std::io::copy(
-            &mut (&mut source).take(length + footer),
-            &mut std::io::sink(),
-        )?;
-        let mut next = vec![0; HEAD_BYTES];
-        let got = fill(&mut source, &mut next)?;
-        next.truncate(got);
-        let content = Content::of(&next);
-        source = Source::Pipe(Box::new(std::io::Cursor::new(next).chain(source)));
-        match content {
-            Content::Tagged => {}
-            Content::Flac | Content::Adts => return open(content, source),
-            // Padding may follow the tag, which the search for the first frame passes.
-            _ => return frames::mp3(source),
-        }
-    }
 }

@@ -9,6 +9,7 @@ use std::io::{ErrorKind, Read};
 use super::format::Format;
 use super::wav;
 use crate::Error;
+use crate::audio::unreadable;
 
 /// How one sample is stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -115,22 +116,15 @@ impl Container {
     }
 }
 
-/// An [`Error::Recording`] for what is no WAV at all.
-fn recording(problem: &str) -> Error {
-    Error::Recording {
-        problem: problem.to_owned(),
-    }
-}
-
 /// RIFF, or one of its forms with lengths of 64 bits: RF64 (EBU Tech 3306) and BW64 (ITU-R BS.2088).
 fn check_magic(stream: &mut impl Read) -> Result<(), Error> {
     let mut magic = [0; 12];
     let got = fill(stream, &mut magic)?;
     match (&magic[..4], &magic[8..]) {
-        _ if got == 0 => Err(recording("it is empty")),
+        _ if got == 0 => Err(unreadable("it is empty")),
         (b"RIFF" | b"RF64" | b"BW64", b"WAVE") => Ok(()),
         (b"RIFX", _) => Err(wav("it is RIFX (big-endian), not RIFF")),
-        _ => Err(recording(
+        _ => Err(unreadable(
             "it begins like none of WAV, FLAC, MP4, AAC, MP3 and Ogg Vorbis",
         )),
     }
