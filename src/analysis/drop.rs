@@ -2,9 +2,10 @@
 
 use super::agreement::Agreement;
 use super::bounce::{Corrections, bounce, rebound_height_std_m};
+use super::tail::Followed;
 use super::{Settings, Stretch, model, rejected, warnings};
 use crate::Error;
-use crate::detect::refine::refine;
+use crate::detect::refine::Timing;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
@@ -43,12 +44,12 @@ impl Measured {
 /// Times the impacts of a chain and fits them.
 pub(super) fn measure(
     stretch: &Stretch<'_>,
-    chain: &Chain,
+    followed: &Followed,
     channel: usize,
     settings: &Settings,
 ) -> Result<Measured, Error> {
-    let timed = times(stretch, chain, settings);
-    fit(stretch, chain, &timed, channel, settings)
+    let timed = times(stretch, followed, settings);
+    fit(stretch, &followed.chain, &timed, channel, settings)
 }
 
 /// Fits the impacts of a chain, which have these times.
@@ -145,21 +146,11 @@ pub(super) fn by_height(
 }
 
 /// The heard impacts timed below a sample; those inferred stay where their neighbours put them.
-fn times(stretch: &Stretch<'_>, chain: &Chain, settings: &Settings) -> Vec<Timed> {
-    let heard = |l: &&Link| l.event.is_some();
-    let coarse: Vec<f64> = chain
-        .links
-        .iter()
-        .filter(heard)
-        .map(|l| l.time_s - stretch.start_s)
-        .collect();
-    let refined = refine(
-        stretch.samples,
-        stretch.sample_rate_hz,
-        &coarse,
-        stretch.hop_s,
-        settings.timing,
-    );
+fn times(stretch: &Stretch<'_>, followed: &Followed, settings: &Settings) -> Vec<Timed> {
+    let chain = &followed.chain;
+    let known = followed.timed.as_ref();
+    let known = known.filter(|_| settings.timing == Timing::Correlation);
+    let refined = known.map_or_else(|| stretch.timed(chain, settings.timing), Vec::clone);
     let mut refined = refined.into_iter();
     let timed = chain
         .links

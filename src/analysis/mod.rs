@@ -19,11 +19,11 @@ pub use listener::Listener;
 use std::ops::RangeInclusive;
 
 use crate::Error;
-use crate::detect::refine::Timing;
+use crate::detect::refine::{Timed, Timing, refine};
 use crate::detect::{self, Candidate};
 use crate::fit::ladder;
 use crate::report::{Analysis, Rejected, SettingsInfo};
-use crate::sequence::{self, Event, Reason};
+use crate::sequence::{self, Chain, Event, Reason};
 use crate::units::{real, samples_in};
 
 /// What is known beforehand and how to listen.
@@ -148,6 +148,19 @@ impl<'a> Stretch<'a> {
             strength: c.strength,
         };
         candidates.iter().map(event).collect()
+    }
+
+    /// The heard impacts of a chain, in seconds of the stretch.
+    fn timed(&self, chain: &Chain, timing: Timing) -> Vec<Timed> {
+        let heard = chain.links.iter().filter(|l| l.event.is_some());
+        let coarse: Vec<f64> = heard.map(|l| l.time_s - self.start_s).collect();
+        refine(
+            self.samples,
+            self.sample_rate_hz,
+            &coarse,
+            self.hop_s,
+            timing,
+        )
     }
 
     /// The samples between two times of the recording, as far as they are in the stretch.

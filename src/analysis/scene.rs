@@ -1,7 +1,8 @@
 //! A stretch of sound in which something happens: which channel hears it best, and the drops in it.
 
 use super::drop::{self, Measured};
-use super::{Settings, Stretch, rejected, tail};
+use super::tail::{self, Followed};
+use super::{Settings, Stretch, rejected};
 use crate::Error;
 use crate::detect::{Candidate, Detector, clarity};
 use crate::report::Rejected;
@@ -69,20 +70,23 @@ pub(super) fn hear(
     let mut all = events.clone();
     let new = found.drops.into_iter();
     let new = new.filter(|chain| !edge.waits(chain) && !is_told(chain, told_s));
-    let mut followed: Vec<Chain> = new
+    let mut followed: Vec<Followed> = new
         .map(|chain| tail::follow(&stretch, chain, &mut all, &settings.sequence))
         .collect();
-    followed.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
-    let mut chains: Vec<Chain> = Vec::new();
-    for chain in followed {
-        if !chains.iter().any(|other| is_echo_of(&chain, other)) {
-            chains.push(chain);
+    followed.sort_by(|a, b| b.chain.evidence.total_cmp(&a.chain.evidence));
+    let mut kept: Vec<Followed> = Vec::new();
+    for drop in followed {
+        if !kept
+            .iter()
+            .any(|other| is_echo_of(&drop.chain, &other.chain))
+        {
+            kept.push(drop);
         }
     }
-    chains.sort_by(|a, b| a.span_s().0.total_cmp(&b.span_s().0));
-    let drops = chains
+    kept.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
+    let drops = kept
         .iter()
-        .map(|chain| drop::measure(&stretch, chain, channel, settings));
+        .map(|drop| drop::measure(&stretch, drop, channel, settings));
     let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
     Ok(Heard {
         drops,

@@ -5,7 +5,7 @@
 
 use super::Stretch;
 use crate::detect::matched;
-use crate::detect::refine::{Timing, refine};
+use crate::detect::refine::{Timed, Timing};
 use crate::sequence::{self, Chain, Event};
 
 /// Where flights are shorter than this, in seconds, the sound of one impact reaches into the next.
@@ -21,41 +21,40 @@ const SAME_S: f64 = 1e-3;
 /// The new chain is the old one if its early impacts are nearer to the old ones than the jitter of a thud, in seconds.
 const SAME_CHAIN_S: f64 = 3e-3;
 
+/// A chain whose end was followed.
+#[derive(Debug)]
+pub(super) struct Followed {
+    pub chain: Chain,
+    /// Its heard impacts by correlation, in seconds of the stretch: the end was followed from there, and it is the same
+    /// chain as before. None where it grew, or there was no end to follow.
+    pub timed: Option<Vec<Timed>>,
+}
+
 /// The chain with its end followed by the sound of its impacts, if that finds more; new events are added to `events`.
 pub(super) fn follow(
     stretch: &Stretch<'_>,
     chain: Chain,
     events: &mut Vec<Event>,
     settings: &sequence::Settings,
-) -> Chain {
+) -> Followed {
     let Some((first, region_s)) = region(&chain, stretch.end_s()) else {
-        return chain;
+        return Followed { chain, timed: None };
     };
-    let heard: Vec<f64> = chain
-        .links
-        .iter()
-        .filter(|l| l.event.is_some())
-        .map(|l| l.time_s - stretch.start_s)
-        .collect();
-    let timed = refine(
-        stretch.samples,
-        stretch.sample_rate_hz,
-        &heard,
-        stretch.hop_s,
-        Timing::Correlation,
-    );
+    let timed = stretch.timed(&chain, Timing::Correlation);
     let onsets: Vec<f64> = timed.iter().map(|t| t.time_s).collect();
     let inside_s = (region_s.0 - stretch.start_s, region_s.1 - stretch.start_s);
-    let Some(found) =
-        matched::candidates(stretch.samples, stretch.sample_rate_hz, &onsets, inside_s)
-    else {
-        return chain;
-    };
-    let late = stretch.events(&found);
+    let found = matched::candidates(stretch.samples, stretch.sample_rate_hz, &onsets, inside_s);
+    let late = found
+        .map(|found| stretch.events(&found))
+        .unwrap_or_default();
     let known = known(&chain, stretch.start_s, &onsets);
-    match sequence::follow_again(&late, &known, settings) {
-        Some(end) => joined(chain, first, &end, late, events),
-        None => chain,
+    let end = sequence::follow_again(&late, &known, settings);
+    match end.and_then(|end| joined(&chain, first, &end, late, events)) {
+        Some(chain) => Followed { chain, timed: None },
+        None => Followed {
+            chain,
+            timed: Some(timed),
+        },
     }
 }
 
@@ -99,14 +98,14 @@ fn region(chain: &Chain, recording_end_s: f64) -> Option<(usize, (f64, f64))> {
 
 /// The early part of the old chain and the new late part, if more was heard that way.
 fn joined(
-    chain: Chain,
+    chain: &Chain,
     first: usize,
     end: &Chain,
     late: Vec<Event>,
     events: &mut Vec<Event>,
-) -> Chain {
+) -> Option<Chain> {
     let [first_new, second_new, ..] = end.links.as_slice() else {
-        return chain;
+        return None;
     };
     // Whatever of the old chain is nearer to the first new impact than half its flight is the same impact.
     let begin_s = first_new.time_s - 0.5 * (second_new.time_s - first_new.time_s);
@@ -128,7 +127,7 @@ fn joined(
         .zip(&chain.links)
         .all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_CHAIN_S);
     if heard <= chain.heard() || !kept {
-        return chain;
+        return None;
     }
     events.extend(late);
     let near = |time_s: f64| links.iter().any(|l| (l.time_s - time_s).abs() < SAME_S);
@@ -138,9 +137,9 @@ fn joined(
         .filter(|r| !near(r.time_s))
         .copied()
         .collect();
-    Chain {
+    Some(Chain {
         evidence: chain.evidence.max(end.evidence),
         links,
         rejected,
-    }
+    })
 }
