@@ -1,5 +1,7 @@
 //! Band-limited sequences between their samples.
 
+use std::sync::LazyLock;
+
 use crate::units::real;
 
 /// Half-width of the interpolating kernel in samples.
@@ -87,6 +89,9 @@ pub fn slope(values: &[f64]) -> Vec<f64> {
 
 /// Places that a maximum is first sought at, for each sample.
 const PLACES: usize = 8;
+/// The kernels at those between two samples.
+static EIGHTHS: LazyLock<[[f64; 2 * KERNEL]; PLACES - 1]> =
+    LazyLock::new(|| std::array::from_fn(|k| kernel(real(k + 1) / real(PLACES)).1));
 /// Distances of the three values that a parabola is laid through after that, in samples: at the last one its vertex is
 /// wrong by `h²/6·y‴/y″`, a few hundred-thousandths of a sample.
 const PARABOLAS: [f64; 2] = [0.1, 0.01];
@@ -96,10 +101,15 @@ const PARABOLAS: [f64; 2] = [0.1, 0.01];
 #[must_use]
 pub fn maximum(values: &[f64], top: usize) -> (f64, f64) {
     let mut best = (real(top), values.get(top).copied().unwrap_or(0.0));
-    for k in 1..PLACES {
-        let off = real(k) / real(PLACES);
-        best = higher(values, best, real(top) - off);
-        best = higher(values, best, real(top) + off);
+    for (k, weights) in EIGHTHS.iter().enumerate() {
+        let after = real(k + 1) / real(PLACES);
+        for (x, first) in [(real(top) - 1.0 + after, 0), (real(top) + after, 1)] {
+            let first = top.cast_signed() + first - KERNEL.cast_signed();
+            let height = weighted(values, first, weights);
+            if height > best.1 {
+                best = (x, height);
+            }
+        }
     }
     for h in PARABOLAS {
         let (x, height) = best;
