@@ -87,6 +87,16 @@ pub fn slope(values: &[f64]) -> Vec<f64> {
     slopes
 }
 
+/// The variance of the [`slope`] of white noise of variance 1: the sum of the squares of its weights.
+#[must_use]
+pub fn slope_gain() -> f64 {
+    let square = |n: usize| {
+        let share = 1.0 - (real(n) / real(KERNEL)).powi(2);
+        (share * share / real(n)).powi(2)
+    };
+    2.0 * (1..KERNEL).map(square).sum::<f64>()
+}
+
 /// Places that a maximum is first sought at, for each sample.
 const PLACES: usize = 8;
 /// The kernels at those between two samples.
@@ -193,6 +203,15 @@ mod tests {
         assert!(
             interpolated(&samples, -3.0).is_finite() && interpolated(&samples, 104.5).is_finite()
         );
+    }
+
+    #[test]
+    fn the_slope_of_white_noise_scatters_by_its_gain() {
+        let mut rng = SplitMix64::new(4);
+        let noise: Vec<f64> = (0..20_000).map(|_| rng.normal()).collect();
+        let squares: f64 = slope(&noise).iter().map(|s| s * s).sum();
+        // A sum of so many squares scatters by a hundredth, neighbours being alike.
+        assert!((squares / 20_000.0 / slope_gain() - 1.0).abs() < 0.05);
     }
 
     #[test]

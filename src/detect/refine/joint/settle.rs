@@ -312,6 +312,11 @@ impl Normal {
         (size, -lean / amplitude, std)
     }
 
+    /// What the samples tell of time for an amplitude of 1, the amplitude being unknown.
+    pub(super) fn slope_information(&self) -> f64 {
+        self.slope_slope - self.shape_slope.powi(2) / self.shape_shape
+    }
+
     /// An amplitude in standard deviations of the noise.
     pub(super) fn clearness(&self, amplitude: f64) -> f64 {
         amplitude * self.shape_shape.sqrt()

@@ -4,6 +4,7 @@ use super::Joint;
 use super::average::sums;
 use super::settle::Normal;
 use super::template::{MOST_SHARE, Sample};
+use crate::detect::refine::interpolate::slope_gain;
 use crate::units::real;
 
 /// Blocks of equal information that a sound is cut into; two parameters are fitted to them.
@@ -55,8 +56,13 @@ fn judged(joint: &Joint, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
     let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let template = &joint.template;
     let each = samples.iter().enumerate();
-    each.map(|(i, s)| errors(s, template.shape(i), template.slopes(i), &weights))
-        .collect()
+    each.map(|(i, s)| {
+        let (shape, slopes) = (template.shape(i), template.slopes(i));
+        let (independent, blocks) = errors(s, shape, slopes, &weights)?;
+        let known = known_share(s, shape, slopes, template.noise());
+        Some((independent / known, blocks / known))
+    })
+    .collect()
 }
 
 /// The mean ratio of both variances among an impact and its neighbours; 1 if none is known.
@@ -109,6 +115,24 @@ fn noise_excess(joint: &Joint, samples: &[Sample]) -> f64 {
 const FEWEST_STRETCHES: usize = 4;
 /// A knock in one stretch does not speak for all noise.
 const MOST_EXCESS: f64 = 1e4;
+
+/// A share that the noise's own scatter makes smaller than this is not told from this.
+const LEAST_KNOWN: f64 = 0.02;
+
+/// The share of a sound's slope, in what it tells of time, that is not the template's own noise: by so much less than it
+/// seems does a match follow the impact.
+///
+/// # Formula
+/// `1 − Σ w·G·v / (Σ w·s′² − (Σ w·s·s′)²/Σ w·s²)`, v the variance of the template at each sample, `G·v` that of its slope.
+fn known_share(sample: &Sample, shape: &[f64], slopes: &[f64], variances: &[f64]) -> f64 {
+    let normal = Normal::of(&sample.sound, &sample.noise, shape, slopes);
+    let noise: f64 = variances
+        .iter()
+        .zip(&sample.noise)
+        .map(|(v, n)| slope_gain() * v / n)
+        .sum();
+    (1.0 - noise / normal.slope_information()).max(LEAST_KNOWN)
+}
 
 /// Standard error of one position by independent samples and by blocks.
 fn errors(sample: &Sample, shape: &[f64], slopes: &[f64], weights: &[f64]) -> Option<(f64, f64)> {

@@ -73,14 +73,17 @@ fn onsets(count: usize, first_flight_s: f64, ratio: f64) -> Vec<f64> {
 
 /// Errors of the times, less their median, and stated errors, in microseconds; coarse times are off by up to 0.3 ms.
 fn errors(ball: &Ball, onsets_s: &[f64]) -> Vec<(f64, f64)> {
-    let samples = ball.recorded(onsets_s, 3);
+    errors_in(&ball.recorded(onsets_s, 3), onsets_s)
+}
+
+fn errors_in(samples: &[f32], onsets_s: &[f64]) -> Vec<(f64, f64)> {
     let mut rng = SplitMix64::new(4);
     let coarse: Vec<f64> = onsets_s
         .iter()
         .map(|t| t + 3e-4 * (2.0 * rng.uniform() - 1.0))
         .collect();
-    let whitener = Whitener::learn(&samples, RATE, &coarse);
-    let timed = times(&samples, RATE, &coarse, &whitener).unwrap();
+    let whitener = Whitener::learn(samples, RATE, &coarse);
+    let timed = times(samples, RATE, &coarse, &whitener).unwrap();
     let mut found: Vec<(f64, f64)> = timed
         .iter()
         .zip(onsets_s)
@@ -127,6 +130,33 @@ fn a_thud_is_timed_by_all_of_its_length() {
     for (i, (error, _)) in errors(&thud, &onsets(14, 0.6, 0.82)).iter().enumerate() {
         assert!(error.abs() < 6.0, "impact {i}: {error} us");
     }
+}
+
+#[test]
+fn few_thuds_in_noise_are_not_said_to_be_timed_by_the_noise_of_their_mean() {
+    let thud = Ball {
+        contact_s: 4e-3,
+        hertz: false,
+        modes_hz: [170.0, 430.0],
+        decay_s: 10e-3,
+    };
+    let onsets_s = onsets(5, 0.6, 0.8);
+    let (mut squares, mut count) = (0.0, 0.0);
+    for seed in 1..=12 {
+        let mut rng = SplitMix64::new(100 + seed);
+        let mut samples = thud.recorded(&onsets_s, seed);
+        for x in &mut samples {
+            #[expect(clippy::cast_possible_truncation, reason = "test samples")]
+            let noise = (0.002 * rng.normal()) as f32;
+            *x += noise;
+        }
+        for (error, std) in errors_in(&samples, &onsets_s) {
+            squares += (error / std).powi(2);
+            count += 1.0;
+        }
+    }
+    let ratio = f64::sqrt(squares / count);
+    assert!((0.5..1.5).contains(&ratio), "error over stated: {ratio}");
 }
 
 #[test]
