@@ -55,11 +55,12 @@ fn heads(joint: &Joint) -> Vec<Sample> {
 fn judged(joint: &Joint, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
     let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let template = &joint.template;
+    let variances = mean_variances(samples, &weights);
     let each = samples.iter().enumerate();
     each.map(|(i, s)| {
         let (shape, slopes) = (template.shape(i), template.slopes(i));
         let (independent, blocks) = errors(s, shape, slopes, &weights)?;
-        let known = known_share(s, shape, slopes, template.noise());
+        let known = known_share(s, shape, slopes, &variances);
         Some((independent / known, blocks / known))
     })
     .collect()
@@ -115,6 +116,19 @@ fn noise_excess(joint: &Joint, samples: &[Sample]) -> f64 {
 const FEWEST_STRETCHES: usize = 4;
 /// A knock in one stretch does not speak for all noise.
 const MOST_EXCESS: f64 = 1e4;
+
+/// What white noise of variance 1 in all sounds makes of the variance of their weighted mean at each sample,
+/// `Σ w²/a² / (Σ w)²`. That impacts differ makes it uncertain too, but by waves as long as their own.
+fn mean_variances(samples: &[Sample], weights: &[f64]) -> Vec<f64> {
+    let mut variances = vec![0.0; weights.len()];
+    for sample in samples {
+        let scale = sample.amplitude.powi(-2);
+        for ((v, w), all) in variances.iter_mut().zip(sample.weights()).zip(weights) {
+            *v += scale * (w / all).powi(2);
+        }
+    }
+    variances
+}
 
 /// A share that the noise's own scatter makes smaller than this is not told from this.
 const LEAST_KNOWN: f64 = 0.02;

@@ -63,11 +63,6 @@ impl Template {
         &self.components[0]
     }
 
-    /// Variance of S₀.
-    pub(super) fn noise(&self) -> &[f64] {
-        &self.noise
-    }
-
     /// The sound of impact `i` at amplitude 1.
     pub(super) fn shape(&self, i: usize) -> &[f64] {
         self.shapes.get(i).unwrap_or(&self.components[0])
