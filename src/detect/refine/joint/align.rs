@@ -1,7 +1,7 @@
 //! The first alignment: from the loudest impact along the drop, each impact matched with those next to it.
 
 use super::average::smoothed;
-use super::settle::best;
+use super::place::best;
 use super::template::Template;
 use super::{BEFORE_S, Impact, Joint, LONGEST_S};
 use crate::detect::refine::interpolate::{KERNEL, shifted};

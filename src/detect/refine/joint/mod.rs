@@ -16,6 +16,7 @@
 mod align;
 mod average;
 mod drift;
+mod place;
 mod settle;
 mod spread;
 mod template;

@@ -1,11 +1,11 @@
 //! Times and template in turn.
 
 use super::average::smoothed;
+use super::place::best;
 use super::spread::likenesses;
 use super::template::Sample;
 use super::{Joint, ROUNDS, SEARCHES};
-use crate::detect::refine::interpolate::{KERNEL, maximum, shifted};
-use crate::detect::voice::Correlator;
+use crate::detect::refine::interpolate::{KERNEL, shifted};
 use crate::units::{real, samples_in};
 
 /// Smoothing of the misfit, either way, in seconds.
@@ -15,21 +15,10 @@ const KNOCK_S: f64 = 1e-3;
 const KNOCK: f64 = 4.0;
 /// Farthest that a match moves in one step, in samples.
 const STEP: f64 = 1.0;
-/// A match of less than this share of the best is no rival.
-const RIVAL: f64 = 0.5;
 /// Variance of what was not recorded.
 const UNKNOWN: f64 = 1e30;
 /// The prior on a time reaches this many standard deviations.
 pub(super) const PRIOR_REACH: f64 = 4.0;
-
-/// A place where a shape fits.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Fit {
-    pub position: f64,
-    pub amplitude: f64,
-    /// Spread over all places that fit, each by its likelihood.
-    pub doubt: f64,
-}
 
 impl Joint {
     /// Settles times and template in turn, `searches` rounds with jumps and as many more without as `rounds`.
@@ -330,73 +319,4 @@ impl Normal {
         }
         (self.shape_slope * shape - self.shape_shape * slope) / (noise * determinant * amplitude)
     }
-}
-
-/// Least energy of a shape where much of it was not recorded, as a share of the greatest.
-const LEAST_ENERGY: f64 = 1e-9;
-
-/// The best place for a shape among samples; `prior` is where it is expected to begin and how surely.
-///
-/// # Formula
-/// `L(p) = (Σ w·x·s(· − p))²/(2 Σ w·s²(· − p))/scale − (p − prior)²/2σ²`: what a shape of positive amplitude explains,
-/// where what it leaves has the variance `scale`, at least 1, times the number of samples that err alike.
-pub(super) fn best(
-    correlator: &mut Correlator,
-    (samples, noise): (&[f64], &[f64]),
-    shape: &[f64],
-    prior: (f64, f64),
-    (reach, likeness): (usize, f64),
-) -> Option<Fit> {
-    let weighted: Vec<f64> = samples.iter().zip(noise).map(|(x, n)| x / n).collect();
-    let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
-    let weights: Vec<f64> = noise.iter().map(|n| 1.0 / n).collect();
-    let lags = samples.len() - shape.len() + 1;
-    let products = correlator.correlate(&weighted, shape)?;
-    let flat = weights.iter().all(|w| (w - weights[0]).abs() < 1e-9);
-    let energies = if flat {
-        vec![weights[0] * squares.iter().sum::<f64>(); lags]
-    } else {
-        // Rounding leaves nothing certain of what is next to none: there a match explains nothing.
-        let mut energies = correlator.correlate(&weights, &squares)?;
-        let least = LEAST_ENERGY * energies.iter().fold(0.0, |a: f64, &b| a.max(b));
-        energies.iter_mut().for_each(|e| *e = e.max(least));
-        energies
-    };
-    let explained = |k: usize| products[k].max(0.0).powi(2) / (2.0 * energies[k]);
-    let inside = KERNEL..lags.checked_sub(KERNEL)?.max(KERNEL + 1);
-    let top = inside
-        .clone()
-        .max_by(|&a, &b| explained(a).total_cmp(&explained(b)))?;
-    if products[top] <= 0.0 {
-        return None;
-    }
-    let all: f64 = samples[top..top + shape.len()]
-        .iter()
-        .zip(&weighted[top..])
-        .map(|(x, w)| x * w)
-        .sum();
-    let scale = likeness * ((all - 2.0 * explained(top)) / real(shape.len())).max(1.0);
-    let peaks: Vec<(f64, f64, f64)> = inside
-        .filter(|&k| {
-            explained(k) >= RIVAL * explained(top)
-                && products[k] >= products[k - 1]
-                && products[k] > products[k + 1]
-        })
-        .map(|k| {
-            let (position, height) = maximum(&products, k);
-            let likelihood = height * height / (2.0 * energies[k]) / scale
-                - 0.5 * ((position - prior.0) / prior.1).powi(2);
-            (position, height / energies[k], likelihood)
-        })
-        .filter(|(position, ..)| (position - prior.0).abs() <= real(reach))
-        .collect();
-    let &(position, amplitude, likelihood) = peaks.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
-    let shares = peaks.iter().map(|p| ((p.2 - likelihood).exp(), p.0));
-    let total: f64 = shares.clone().map(|(share, _)| share).sum();
-    let spread = shares.map(|(share, p)| share * (p - position).powi(2));
-    Some(Fit {
-        position,
-        amplitude,
-        doubt: (spread.sum::<f64>() / total).sqrt(),
-    })
 }
