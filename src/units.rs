@@ -144,7 +144,12 @@ impl Quantity {
             _ => Err(Error::Argument {
                 argument,
                 got: format!("'{text}'"),
-                expected: self.expected(),
+                expected: if number.contains(',') && number.replace(',', ".").parse::<f64>().is_ok()
+                {
+                    "a decimal point and no comma, such as 30.5"
+                } else {
+                    self.expected()
+                },
             }),
         }
     }
@@ -174,9 +179,23 @@ mod tests {
     }
 
     #[test]
+    fn a_decimal_comma_is_told_to_be_one() {
+        let said = |text| {
+            Quantity::Length
+                .parse("height", text)
+                .unwrap_err()
+                .to_string()
+        };
+        assert!(said("1,5m").contains("a decimal point and no comma"));
+        for text in ["1e400", "inf", "3,0,5cm", "cm"] {
+            assert!(said(text).contains("a length such as"), "{}", said(text));
+        }
+    }
+
+    #[test]
     fn what_is_no_quantity_is_refused_by_name() {
         for text in [
-            "", "cm", "30.5kg", "nan", "inf", "1e400", "1,5m", "--", "3 0cm",
+            "", "cm", "30.5kg", "nan", "inf", "1e400", "1,5,0m", "--", "3 0cm",
         ] {
             let error = Quantity::Length
                 .parse("--height", text)

@@ -258,9 +258,11 @@ impl<'s> Stream<'s> {
         let losses = &self.losses;
         if losses.times > 0 {
             warnings.push(format!(
-                "sound is damaged in {} places, the first at {:.3} s; {:.3} s of it are silence now, so that what follows \
-                 keeps its time{}",
-                losses.times,
+                "sound is damaged in {} at {:.3} s; {:.3} s of it are silence now, so that what follows keeps its time{}",
+                match losses.times {
+                    1 => "one place,".to_owned(),
+                    times => format!("{times} places, the first"),
+                },
                 at(losses.first),
                 at(losses.frames),
                 if self.is_estimate { ", to a frame or so where frames differ in length" } else { "" }
