@@ -21,7 +21,7 @@ const SAME_S: f64 = 1e-3;
 /// The new chain is the old one if its early impacts are nearer to the old ones than the jitter of a thud, in seconds.
 const SAME_CHAIN_S: f64 = 3e-3;
 
-/// A chain whose end was followed.
+/// A chain after its end was sought again.
 #[derive(Debug)]
 pub(super) struct Followed {
     pub chain: Chain,

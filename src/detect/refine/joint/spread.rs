@@ -25,14 +25,18 @@ const FAINTEST: f64 = 3.0;
 /// ```
 /// Its ratio to the variance of independent samples varies slowly along the drop and is averaged over neighbours. What
 /// the same pulls make of the noise just before each impact, above what they would make of white noise, is added: hum
-/// and rumble that are left over last longer than a block.
+/// and rumble that are left over last longer than a block. All is divided by the [share](known_share) of the slope that is
+/// known.
 pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
     let samples = heads(joint);
     let judged = judged(joint, &samples);
     let excess = noise_excess(joint, &samples);
+    let variances = mean_variances(&samples);
     let std = |i: usize| {
         let (independent, _) = judged[i]?;
-        Some(independent * (likeness(&judged, i) + excess).sqrt())
+        let (shape, slopes) = (joint.template.shape(i), joint.template.slopes(i));
+        let known = known_share(&samples[i], shape, slopes, &variances);
+        Some(independent / known * (likeness(&judged, i) + excess).sqrt())
     };
     (0..judged.len()).map(std).collect()
 }
@@ -55,15 +59,9 @@ fn heads(joint: &Joint) -> Vec<Sample> {
 fn judged(joint: &Joint, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
     let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let template = &joint.template;
-    let variances = mean_variances(samples, &weights);
     let each = samples.iter().enumerate();
-    each.map(|(i, s)| {
-        let (shape, slopes) = (template.shape(i), template.slopes(i));
-        let (independent, blocks) = errors(s, shape, slopes, &weights)?;
-        let known = known_share(s, shape, slopes, &variances);
-        Some((independent / known, blocks / known))
-    })
-    .collect()
+    each.map(|(i, s)| errors(s, template.shape(i), template.slopes(i), &weights))
+        .collect()
 }
 
 /// The mean ratio of both variances among an impact and its neighbours; 1 if none is known.
@@ -119,33 +117,35 @@ const MOST_EXCESS: f64 = 1e4;
 
 /// What white noise of variance 1 in all sounds makes of the variance of their weighted mean at each sample,
 /// `Σ w²/a² / (Σ w)²`. That impacts differ makes it uncertain too, but by waves as long as their own.
-fn mean_variances(samples: &[Sample], weights: &[f64]) -> Vec<f64> {
+fn mean_variances(samples: &[Sample]) -> Vec<f64> {
+    let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let mut variances = vec![0.0; weights.len()];
     for sample in samples {
         let scale = sample.amplitude.powi(-2);
-        for ((v, w), all) in variances.iter_mut().zip(sample.weights()).zip(weights) {
+        for ((v, w), all) in variances.iter_mut().zip(sample.weights()).zip(&weights) {
             *v += scale * (w / all).powi(2);
         }
     }
     variances
 }
 
-/// A share that the noise's own scatter makes smaller than this is not told from this.
+/// Least share that is told: below it, it is nothing but the scatter of the noise.
 const LEAST_KNOWN: f64 = 0.02;
 
 /// The share of a sound's slope, in what it tells of time, that is not the template's own noise: by so much less than it
 /// seems does a match follow the impact.
 ///
 /// # Formula
-/// `1 − Σ w·G·v / (Σ w·s′² − (Σ w·s·s′)²/Σ w·s²)`, v the variance of the template at each sample, `G·v` that of its slope.
+/// `1 − Σ w·G·v / (Σ w·s′² − (Σ w·s·s′)²/Σ w·s²)`, w one over the noise, v the variance of a
+/// template of one component at each sample, `G·v` that of its slope.
 fn known_share(sample: &Sample, shape: &[f64], slopes: &[f64], variances: &[f64]) -> f64 {
     let normal = Normal::of(&sample.sound, &sample.noise, shape, slopes);
     let noise: f64 = variances
         .iter()
         .zip(&sample.noise)
-        .map(|(v, n)| slope_gain() * v / n)
+        .map(|(v, n)| v / n)
         .sum();
-    (1.0 - noise / normal.slope_information()).max(LEAST_KNOWN)
+    (1.0 - slope_gain() * noise / normal.slope_information()).max(LEAST_KNOWN)
 }
 
 /// Standard error of one position by independent samples and by blocks.
