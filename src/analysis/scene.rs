@@ -75,18 +75,15 @@ pub(super) fn hear(
         .collect();
     followed.sort_by(|a, b| b.chain.evidence.total_cmp(&a.chain.evidence));
     let mut kept: Vec<Followed> = Vec::new();
-    for drop in followed {
-        if !kept
-            .iter()
-            .any(|other| is_echo_of(&drop.chain, &other.chain))
-        {
-            kept.push(drop);
+    for new in followed {
+        if !kept.iter().any(|k| is_echo_of(&new.chain, &k.chain)) {
+            kept.push(new);
         }
     }
     kept.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
     let drops = kept
         .iter()
-        .map(|drop| drop::measure(&stretch, drop, channel, settings));
+        .map(|followed| drop::measure(&stretch, followed, channel, settings));
     let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
     Ok(Heard {
         drops,

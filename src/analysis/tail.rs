@@ -44,12 +44,13 @@ pub(super) fn follow(
     let onsets: Vec<f64> = timed.iter().map(|t| t.time_s).collect();
     let inside_s = (region_s.0 - stretch.start_s, region_s.1 - stretch.start_s);
     let found = matched::candidates(stretch.samples, stretch.sample_rate_hz, &onsets, inside_s);
-    let late = found
-        .map(|found| stretch.events(&found))
-        .unwrap_or_default();
-    let known = known(&chain, stretch.start_s, &onsets);
-    let end = sequence::follow_again(&late, &known, settings);
-    match end.and_then(|end| joined(&chain, first, &end, late, events)) {
+    let longer = found.and_then(|found| {
+        let late = stretch.events(&found);
+        let known = known(&chain, stretch.start_s, &onsets);
+        let end = sequence::follow_again(&late, &known, settings)?;
+        joined(&chain, first, &end, late, events)
+    });
+    match longer {
         Some(chain) => Followed { chain, timed: None },
         None => Followed {
             chain,

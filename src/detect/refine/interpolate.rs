@@ -74,9 +74,7 @@ pub(super) fn correlated<const TAPS: usize>(samples: &[f64], weights: &[f64; TAP
 pub fn slope(values: &[f64]) -> Vec<f64> {
     let mut slopes = vec![0.0; values.len()];
     for n in 1..KERNEL.min(values.len()) {
-        let share = 1.0 - (real(n) / real(KERNEL)).powi(2);
-        let sign = if n.is_multiple_of(2) { -1.0 } else { 1.0 };
-        let weight = sign * share * share / real(n);
+        let weight = slope_weight(n);
         for (y, later) in slopes.iter_mut().zip(&values[n..]) {
             *y += weight * later;
         }
@@ -87,14 +85,17 @@ pub fn slope(values: &[f64]) -> Vec<f64> {
     slopes
 }
 
-/// The variance of the [`slope`] of white noise of variance 1: the sum of the squares of its weights.
-#[must_use]
-pub fn slope_gain() -> f64 {
-    let square = |n: usize| {
-        let share = 1.0 - (real(n) / real(KERNEL)).powi(2);
-        (share * share / real(n)).powi(2)
-    };
-    2.0 * (1..KERNEL).map(square).sum::<f64>()
+/// `(−1)^(n+1)/n·(1 − (n/K)²)²`.
+fn slope_weight(n: usize) -> f64 {
+    let share = 1.0 - (real(n) / real(KERNEL)).powi(2);
+    let sign = if n.is_multiple_of(2) { -1.0 } else { 1.0 };
+    sign * share * share / real(n)
+}
+
+/// The variance of the [`slope`] of white noise of variance 1, away from the ends: the sum of the squares of its weights.
+pub(super) fn slope_gain() -> f64 {
+    let squares = (1..KERNEL).map(|n| slope_weight(n).powi(2));
+    2.0 * squares.sum::<f64>()
 }
 
 /// Places that a maximum is first sought at, for each sample.
