@@ -242,3 +242,30 @@ fn two_drops_are_two_drops() {
         assert!((start - truth.impacts_s[0]).abs() < 1e-3);
     }
 }
+
+/// One recording of a preset, and what was found in it.
+fn found_in(name: &str, seed: u64) -> (Found, Synthetic) {
+    let made = render(&preset(name).unwrap(), seed).unwrap();
+    (compare(&listen(&made), &made.truth.drops[0]), made)
+}
+
+#[test]
+fn the_end_of_a_soft_ball_whose_slow_impacts_match_late_is_found() {
+    let (found, _) = found_in("tennis", 3);
+    assert!(found.missed.len() <= 1, "missed {:?}", found.missed);
+    assert_eq!(found.spurious, 0);
+}
+
+#[test]
+fn a_drop_goes_on_behind_knocks_much_louder_than_its_impacts() {
+    let (found, made) = found_in("knocks", 5);
+    let audible = made.truth.drops[0].audible.iter().filter(|&&a| a).count();
+    assert_eq!(found.spurious, 0);
+    assert!(found.errors_s.len() + 3 >= audible, "{:?}", found.missed);
+}
+
+#[test]
+fn a_ring_that_comes_back_after_the_last_impact_is_no_bouncing() {
+    let (found, _) = found_in("tennis", 7);
+    assert_eq!(found.spurious, 0);
+}

@@ -1,4 +1,4 @@
-//! How often chance offers an event as strong as this one: what a match is worth.
+//! How often chance offers an event as strong as this one and not much stronger: what a match is worth.
 
 use super::Event;
 use crate::units::real;
@@ -7,6 +7,9 @@ use crate::units::real;
 const BIN_S: f64 = 0.25;
 /// Bins looked at on each side: surroundings of a second or two, in which a scene changes little.
 const REACH: usize = 3;
+/// What is stronger than an event by this factor is nothing that could be taken for it. Strengths of neighbouring impacts
+/// spread by a factor of two; this is two such spreads.
+const LOUDER: f64 = 4.0;
 /// What the whole recording says of its events counts as much as this many seconds of surroundings.
 const WHOLE_S: f64 = 2.0;
 /// Events that noise may have offered had the recording been longer.
@@ -48,7 +51,8 @@ impl Explained {
         let first = self.events.partition_point(|e| e.time_s < from_s);
         let near = self.events[first..].iter();
         let near = near.take_while(|e| e.time_s < to_s);
-        near.filter(|e| e.strength >= strength).count()
+        near.filter(|e| (strength..LOUDER * strength).contains(&e.strength))
+            .count()
     }
 
     fn contains(&self, event: &Event) -> bool {
@@ -85,7 +89,8 @@ impl Clutter {
         self.duration_s.max(1.0)
     }
 
-    /// Clutter per second at least as strong as this event, near its time; it does not count itself.
+    /// Clutter per second as strong as this event or up to `LOUDER` times as strong, near its time; it does not count
+    /// itself.
     ///
     /// # Formula
     /// ```text
@@ -106,15 +111,15 @@ impl Clutter {
         let itself = usize::from(!explained.contains(event));
         let border_s = |bin: usize| self.start_s + real(bin) * BIN_S;
         let known_near = itself + explained.near(strength, border_s(first), border_s(last + 1));
-        let known = itself + at_least(&explained.strengths, strength);
+        let known = itself + alike(&explained.strengths, strength);
         let all_near: usize = self.bins[first..=last]
             .iter()
-            .map(|bin| at_least(bin, strength))
+            .map(|bin| alike(bin, strength))
             .sum();
         let near = real(all_near.saturating_sub(known_near));
         let unseen = UNSEEN
             * (-(strength - self.strongest(explained)).max(0.0) / self.tail(explained)).exp();
-        let others = real(at_least(&self.all, strength).saturating_sub(known));
+        let others = real(alike(&self.all, strength).saturating_sub(known));
         let whole = (others + unseen) / self.duration_s() + KNOCKS_PER_S;
         let span_s =
             ((real(last + 1) * BIN_S).min(self.duration_s) - real(first) * BIN_S).max(BIN_S);
@@ -148,9 +153,10 @@ impl Clutter {
 /// θ is not taken below this, in nats: where all clutter is alike, the next may still be stronger.
 const LEAST_TAIL: f64 = 0.1;
 
-/// How many of the ascending strengths are at least this.
-fn at_least(strengths: &[f64], strength: f64) -> usize {
-    strengths.len() - strengths.partition_point(|&s| s < strength)
+/// How many of the ascending strengths are as strong as this, or up to [`LOUDER`] times as strong.
+fn alike(strengths: &[f64], strength: f64) -> usize {
+    let below = |limit: f64| strengths.partition_point(|&s| s < limit);
+    below(LOUDER * strength) - below(strength)
 }
 
 fn bin_of(after_start_s: f64) -> usize {
@@ -175,11 +181,11 @@ mod tests {
         let faint = Event {
             time_s: 10.0,
             jitter_s: 1e-4,
-            strength: 0.0,
+            strength: 3.0,
         };
         let weak = clutter.rate_per_s(&faint, &Explained::default());
         assert!((0.1..0.6).contains(&strong), "{strong}");
-        assert!((weak - 50.0).abs() < 2.0, "{weak}");
+        assert!((weak - 35.0).abs() < 2.0, "{weak}");
         let own: Vec<Event> = events
             .iter()
             .copied()
@@ -187,5 +193,20 @@ mod tests {
             .collect();
         let alone = clutter.rate_per_s(&events[500], &Explained::new(own));
         assert!(alone < 0.25 * strong, "{alone} {strong}");
+    }
+
+    #[test]
+    fn knocks_much_louder_than_an_event_are_no_clutter_to_it() {
+        let knocks = |strength: f64| -> f64 {
+            let events = (0..400).map(|i| Event {
+                time_s: 5e-3 * real(i),
+                jitter_s: 1e-4,
+                strength: if i == 200 { 100.0 } else { strength },
+            });
+            let events: Vec<Event> = events.collect();
+            Clutter::new(&events).rate_per_s(&events[200], &Explained::default())
+        };
+        let (alike, louder) = (knocks(0.9 * LOUDER * 100.0), knocks(1.1 * LOUDER * 100.0));
+        assert!(louder < 0.01 * alike, "{louder} {alike}");
     }
 }

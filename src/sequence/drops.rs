@@ -81,7 +81,7 @@ const LEAST_SHRINKAGE: f64 = 0.9;
 /// The longest flight of a drop is at least this, in seconds: pulses of a voice are nearer together.
 const LEAST_FLIGHT_S: f64 = 0.025;
 /// No ball keeps more than this share of its speed at every bounce.
-const GREATEST_RATIO: f64 = 0.985;
+pub(super) const GREATEST_RATIO: f64 = 0.985;
 
 /// Finds the drops among events in order of time.
 ///
@@ -147,17 +147,29 @@ fn disjoint(events: &[Event], left: &[usize], known: &[Chain], settings: &Settin
 /// neighbouring impacts have events.
 #[must_use]
 pub fn follow_again(
-    events: &[Event],
+    mut events: &[Event],
     impacts_s: &[(f64, f64)],
     settings: &Settings,
 ) -> Option<Chain> {
-    let clutter = Clutter::new(events);
-    let scene = Scene::new(events, &clutter, settings);
+    loop {
+        let clutter = Clutter::new(events);
+        let scene = Scene::new(events, &clutter, settings);
+        let chain = follow_known(&scene, impacts_s)?;
+        // Where only a sound comes back again and again the ball lies still: what was followed there led astray before.
+        match reasons::returning_from(&scene, &chain) {
+            Some(first) => events = &events[..first],
+            None => return Some(chain),
+        }
+    }
+}
+
+fn follow_known(scene: &Scene<'_>, impacts_s: &[(f64, f64)]) -> Option<Chain> {
+    let strength = |i: usize| scene.events[i].strength;
     let known: Vec<Option<usize>> = impacts_s
         .iter()
         .map(|&(t, off)| {
             let near = scene.between(t - off, t + off);
-            near.max_by(|&a, &b| events[a].strength.total_cmp(&events[b].strength))
+            near.max_by(|&a, &b| strength(a).total_cmp(&strength(b)))
         })
         .collect();
     let seeds = known.windows(3).filter_map(|w| Some([w[0]?, w[1]?, w[2]?]));
@@ -174,7 +186,7 @@ pub fn follow_again(
     }
     let better = |a: &Chain, b: &Chain| a.evidence.total_cmp(&b.evidence);
     let best = chains.into_iter().max_by(better)?;
-    Some(sharpen(&scene, best))
+    Some(sharpen(scene, best))
 }
 
 /// How often a chain is followed anew with what it taught.

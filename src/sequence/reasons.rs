@@ -1,6 +1,6 @@
 //! Why an event is no impact of a drop.
 
-use super::drops::{Chain, Found, reject};
+use super::drops::{Chain, Found, GREATEST_RATIO, reject};
 use super::track::Scene;
 use crate::statistics::upper_median;
 use crate::units::real;
@@ -42,6 +42,8 @@ const LONGEST_DELAY_S: f64 = 0.1;
 const ECHO_SHARE: f64 = 0.3;
 /// Nearer to an impact than this, an event belongs to its sound.
 const NEAR_S: f64 = 5e-3;
+/// Fewest flights that show whether they shrink.
+const RETURNS: usize = 4;
 /// How many events outside the drops are named, the strongest; the rest is counted.
 const NAMED: usize = 50;
 /// A drop's rejected events are named from this share of its impacts' median strength on.
@@ -104,6 +106,29 @@ pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
     explained.sort_unstable();
     explained.dedup();
     explained
+}
+
+/// The event from which on a chain only follows one sound that comes back again and again: its last flights all last as
+/// long as an echo takes, and do not shrink as those of a ball do.
+#[must_use]
+pub fn returning_from(scene: &Scene<'_>, chain: &Chain) -> Option<usize> {
+    let own: Vec<usize> = chain.events().collect();
+    let echoes = echo_delays(scene, chain, |i| own.binary_search(&i).is_ok());
+    let flights = chain.links.windows(2).map(|w| w[1].time_s - w[0].time_s);
+    let flights: Vec<f64> = flights.collect();
+    let same = |delay: f64| {
+        let last = flights.iter().rev();
+        last.take_while(|f| (*f - delay).abs() < DELAY_TOLERANCE_S)
+            .count()
+    };
+    let count = echoes.into_iter().map(same).max()?;
+    let (first, last) = (*flights.get(flights.len() - count)?, *flights.last()?);
+    let shrink = last < GREATEST_RATIO.powf(real(count - 1)) * first;
+    if count < RETURNS || shrink {
+        return None;
+    }
+    let after = chain.links.len() - count;
+    chain.links[after..].iter().find_map(|l| l.event)
 }
 
 /// Which events the sound of a chain accounts for: what it explains, and what is near one of its impacts and weaker.
