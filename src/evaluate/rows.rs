@@ -43,7 +43,8 @@ pub struct Row {
     pub lost_drops: usize,
     /// Drops found in pieces.
     pub split_drops: usize,
-    /// Median of |error| of the times of audible impacts, in seconds.
+    /// Median of |error| of the times of audible impacts, in seconds. What was not found counts as infinitely wrong, here
+    /// and in the quantiles below: an analyzer does not get better by losing what is hard. Null where a quantile is such.
     pub timing_error_median_s: Option<f64>,
     /// Its 95th percentile.
     pub timing_error_p95_s: Option<f64>,
@@ -159,7 +160,10 @@ fn row(tier: &Tier, scene: Option<&str>, files: &[&FileScore], limit: Option<f64
 impl Row {
     fn add_timing(&mut self, files: &[&FileScore]) {
         let hits: Vec<&Hit> = files.iter().flat_map(|f| &f.hits).collect();
-        let sizes: Vec<f64> = hits.iter().map(|h| h.error_s.abs()).collect();
+        let sizes = with_lost(
+            hits.iter().map(|h| h.error_s.abs()),
+            self.audible - hits.len(),
+        );
         let kept = hits.iter().filter(|h| !h.slipped);
         let ratios = |of: fn(&Hit) -> Option<f64>| -> Vec<f64> {
             let pairs = kept.clone().filter_map(|h| Some((h.error_s, of(h)?)));
@@ -173,8 +177,8 @@ impl Row {
         let to_limit_sizes: Vec<f64> = to_limit.iter().map(|r| r.abs()).collect();
         let groups: Vec<Vec<(f64, f64)>> = files.iter().map(|f| levels_and_errors(f)).collect();
         let walk = common_slope(&groups);
-        self.timing_error_median_s = median(sizes.iter().copied());
-        self.timing_error_p95_s = quantile(sizes.iter().copied(), 0.95);
+        self.timing_error_median_s = finite(median(sizes.iter().copied()));
+        self.timing_error_p95_s = finite(quantile(sizes, 0.95));
         self.walk_s_per_db = walk.map(|(slope, _)| slope);
         self.walk_std_s_per_db = walk.map(|(_, error)| error);
         self.efficiency = root_mean_square(&to_limit);
@@ -186,18 +190,28 @@ impl Row {
 
     fn add_restitution(&mut self, files: &[&FileScore]) {
         let drops = || files.iter().flat_map(|f| &f.drops);
-        let errors: Vec<f64> = drops().map(|d| d.error.abs()).collect();
-        let realised: Vec<f64> = drops()
-            .filter_map(|d| d.error_realised)
-            .map(f64::abs)
-            .collect();
-        self.restitution_error_median = median(errors.iter().copied());
-        self.restitution_error_p90 = quantile(errors.iter().copied(), 0.9);
-        self.realised_error_median = median(realised.iter().copied());
-        self.realised_error_p90 = quantile(realised.iter().copied(), 0.9);
+        let errors = with_lost(drops().map(|d| d.error.abs()), self.lost_drops);
+        let realised = drops().filter_map(|d| d.error_realised).map(f64::abs);
+        let realised = with_lost(realised, self.lost_drops);
+        self.restitution_error_median = finite(median(errors.iter().copied()));
+        self.restitution_error_p90 = finite(quantile(errors, 0.9));
+        self.realised_error_median = finite(median(realised.iter().copied()));
+        self.realised_error_p90 = finite(quantile(realised, 0.9));
         let covered: Vec<bool> = drops().filter_map(|d| d.covered).collect();
         self.coverage95 = share(covered.iter().filter(|&&c| c).count(), covered.len());
     }
+}
+
+/// Sizes of errors, and infinity for each of those that are lost.
+fn with_lost(sizes: impl Iterator<Item = f64>, lost: usize) -> Vec<f64> {
+    sizes
+        .chain(std::iter::repeat_n(f64::INFINITY, lost))
+        .collect()
+}
+
+/// A quantile, if it lies among what was found.
+fn finite(quantile: Option<f64>) -> Option<f64> {
+    quantile.filter(|v| v.is_finite())
 }
 
 fn levels_and_errors(file: &FileScore) -> Vec<(f64, f64)> {

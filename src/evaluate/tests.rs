@@ -124,6 +124,21 @@ fn an_empty_answer_scores_no_recall_and_no_false_drop() {
 }
 
 #[test]
+fn what_is_lost_counts_as_wrong_in_every_quantile() {
+    let empty = || score(&analysis(Vec::new()), &truth(), 4.0, 0.02);
+    let mut files: Vec<FileScore> = (0..9).map(|_| scored(&onsets())).collect();
+    files.push(empty());
+    let row = summed(files.clone());
+    assert_eq!(row.timing_error_median_s, Some(0.0));
+    assert_eq!(row.timing_error_p95_s, None);
+    assert!(row.restitution_error_p90.unwrap() < 1e-15);
+    files.push(empty());
+    let row = summed(files);
+    assert_eq!((row.lost_drops, row.restitution_error_p90), (2, None));
+    assert!(row.restitution_error_median.unwrap() < 1e-15);
+}
+
+#[test]
 fn a_constant_delay_is_forgiven() {
     for delay in [-3e-3, 0.4e-3, 9e-3] {
         let late: Vec<f64> = onsets().iter().map(|t| t + delay).collect();

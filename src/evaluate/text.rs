@@ -20,11 +20,11 @@ pub fn to_text(evaluation: &Evaluation) -> String {
     text + "
 recall: share of the audible impacts that were found; precis: share of what was found that is an impact
 false: drops where none was; lost: drops not found; split: drops found in pieces
-median, p95: error of the times in microseconds, after one common offset per recording
+median, p95: error of the times in microseconds, after one common offset per recording; what was lost counts as infinite
 limit×: rms error over the least that is possible; floor×: over what a match with the mean sound reaches at best
 slips: off by half a period or more; stated×: rms error over stated
 walk: slope of the error against level, in microseconds per dB
-e med, e p90: error of e against the ball's own; cover95: how often the 95 % interval holds it
+e med, e p90: error of e against the ball's own, infinite for a lost drop; cover95: how often the 95 % interval holds it
 "
 }
 
