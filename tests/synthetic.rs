@@ -269,3 +269,12 @@ fn a_ring_that_comes_back_after_the_last_impact_is_no_bouncing() {
     let (found, _) = found_in("tennis", 7);
     assert_eq!(found.spurious, 0);
 }
+
+#[test]
+fn thuds_under_rumble_are_found_though_the_detector_errs_by_milliseconds() {
+    for seed in SEEDS {
+        let (found, _) = found_in("basketball", seed);
+        assert!(found.errors_s.len() >= 7, "seed {seed}: {:?}", found.missed);
+        assert!(found.spurious <= 1, "seed {seed}: {}", found.spurious);
+    }
+}

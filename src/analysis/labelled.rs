@@ -85,6 +85,7 @@ fn measured(
     let link = |(i, m): (usize, &Marked)| Link {
         event: (m.status != Status::Inferred).then_some(i),
         time_s: m.time_s,
+        jitter_s: m.std_s,
         gain: 0.0,
         doubtful: m.status == Status::Doubtful,
     };

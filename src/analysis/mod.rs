@@ -123,6 +123,9 @@ impl Settings {
     }
 }
 
+/// Standard error of a time on the detector's grid, in hops: a uniform error of one hop either way.
+const GRID_ERROR: f64 = 0.58;
+
 /// The stretch of a channel that is analyzed. All times outside it count from the start of the recording.
 #[derive(Debug, Clone, Copy)]
 struct Stretch<'a> {
@@ -153,14 +156,12 @@ impl<'a> Stretch<'a> {
     /// The heard impacts of a chain, in seconds of the stretch.
     fn timed(&self, chain: &Chain, timing: Timing) -> Vec<Timed> {
         let heard = chain.links.iter().filter(|l| l.event.is_some());
-        let coarse: Vec<f64> = heard.map(|l| l.time_s - self.start_s).collect();
-        refine(
-            self.samples,
-            self.sample_rate_hz,
-            &coarse,
-            self.hop_s,
-            timing,
-        )
+        let coarse = heard.map(|l| Timed {
+            time_s: l.time_s - self.start_s,
+            std_s: l.jitter_s.max(GRID_ERROR * self.hop_s),
+        });
+        let coarse: Vec<Timed> = coarse.collect();
+        refine(self.samples, self.sample_rate_hz, &coarse, timing)
     }
 
     /// The samples between two times of the recording, as far as they are in the stretch.

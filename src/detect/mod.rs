@@ -25,7 +25,7 @@ pub struct Settings {
     /// Time grid of the energy, in seconds; rounded to a power of two of samples. Default 0.25 ms: a few times shorter
     /// than the shortest contact, and still cheap.
     pub hop_s: f64,
-    /// Lowest frequency listened to, in Hz. Default 60: a basketball's thud is above, rumble and hum mostly below.
+    /// Lowest frequency listened to, in Hz. Default 40: the octave above holds most of a basketball's thud.
     pub lowest_hz: f64,
     /// Two candidates are at least this far apart, in seconds. Default 1 ms: a quarter of the shortest audible flight.
     pub separation_s: f64,
@@ -41,7 +41,7 @@ impl Default for Settings {
     fn default() -> Self {
         Self {
             hop_s: 0.25e-3,
-            lowest_hz: 60.0,
+            lowest_hz: 40.0,
             separation_s: 1e-3,
             weakest: 3.5,
             segment_s: 8.0,

@@ -117,6 +117,9 @@ impl Evidence {
     }
 
     /// Hops that the quickest band that speaks for a peak looks ahead.
+    ///
+    /// Of slow sounds, which only low bands hear, quick bands know nothing, yet chance lets one of them speak. So where
+    /// the evidence lies in bands as slow as that, the quickest is the one up to which it is more than chance.
     fn reach(&self, peak: usize) -> usize {
         let voice = |rise: &Rise| rise.scale * rise.own[peak];
         let loudest = self.bands.iter().map(voice).fold(0.0, f32::max);
@@ -124,7 +127,26 @@ impl Evidence {
             .bands
             .iter()
             .filter(|rise| voice(rise) >= SPEAKING * loudest);
-        speaking.map(|rise| rise.after).min().unwrap_or(2)
+        let quickest = speaking.map(|rise| rise.after).min().unwrap_or(2);
+        let slow = self.reach_of_evidence(peak);
+        if real(slow) * self.hop_s > SLOW_S {
+            slow
+        } else {
+            quickest
+        }
+    }
+
+    /// Hops that the quickest band looks ahead up to which the evidence of a peak is more than chance, or half of all.
+    fn reach_of_evidence(&self, peak: usize) -> usize {
+        let needed = (0.5 * self.total[peak]).min(BEYOND_CHANCE);
+        let mut bands: Vec<&Rise> = self.bands.iter().collect();
+        bands.sort_by_key(|rise| rise.after);
+        let mut held = 0.0;
+        let enough = bands.iter().find(|rise| {
+            held += rise.scale * rise.own[peak];
+            held >= needed
+        });
+        enough.map_or(2, |rise| rise.after)
     }
 }
 
@@ -133,6 +155,11 @@ const JITTER_SHARE: f64 = 0.1;
 
 /// A band speaks for a peak if it gives at least this share of what the loudest band gives.
 const SPEAKING: f32 = 0.25;
+
+/// So many nats chance hardly ever gives, in all bands together.
+const BEYOND_CHANCE: f32 = 10.0;
+/// Bands that look farther ahead than this, in seconds, are slow.
+const SLOW_S: f64 = 10e-3;
 
 /// Symmetric filters let a sound be heard before it begins, this much fainter in energy; fainter is not believed.
 const LEAKAGE: f32 = 1e-3;

@@ -15,6 +15,8 @@ pub struct Link {
     pub event: Option<usize>,
     /// Seconds from the first sample.
     pub time_s: f64,
+    /// How far off the event's time may be, in seconds (one standard deviation); 0 where there is none.
+    pub jitter_s: f64,
     /// What the event earned in nats.
     pub gain: f64,
     /// Whether chance offers events as strong so often here that this one may be none of the ball's.
@@ -274,6 +276,7 @@ fn links(steps: &[Step]) -> Vec<Link> {
         .map(|s| Link {
             event: s.event,
             time_s: s.time_s,
+            jitter_s: s.jitter_s,
             gain: s.gain,
             doubtful: s.chance > DOUBTFUL_CHANCE,
         })

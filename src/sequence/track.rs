@@ -110,6 +110,8 @@ pub struct Step {
     pub event: Option<usize>,
     /// Seconds from the first sample.
     pub time_s: f64,
+    /// How far off that may be, in seconds; 0 where the impact is inferred.
+    pub jitter_s: f64,
     /// Nats this step earned.
     pub gain: f64,
     /// How many events as strong chance would offer near it: within a few hundredths of its flight.
@@ -166,6 +168,7 @@ pub fn follow(scene: &Scene<'_>, seed: [usize; 3]) -> (Vec<Step>, f64) {
         .map(|i| Step {
             event: Some(seed[i]),
             time_s: t[i],
+            jitter_s: scene.events[seed[i]].jitter_s,
             gain: gains[i],
             chance: scene.chance(seed[i], second),
         })
@@ -287,6 +290,7 @@ impl Hypothesis {
             let step = Step {
                 event: None,
                 time_s: self.time_s + sign * flight,
+                jitter_s: 0.0,
                 gain: -self.silence_cost(),
                 chance: 1.0,
             };
@@ -336,6 +340,7 @@ impl Hypothesis {
             Step {
                 event: Some(event),
                 time_s,
+                jitter_s: scene.events[event].jitter_s,
                 gain,
                 chance: scene.chance(event, flight),
             },

@@ -189,9 +189,9 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
         ("0 Hz", Header { rate_hz: 0, ..PCM }.over(&[0; 100])),
         ("1 Hz", Header { rate_hz: 1, ..PCM }.over(&noise(100_000))),
         (
-            "240 Hz",
+            "160 Hz",
             Header {
-                rate_hz: 240,
+                rate_hz: 160,
                 ..PCM
             }
             .over(&noise(100_000)),

@@ -38,9 +38,6 @@ pub struct Timed {
 const BEFORE_S: f64 = 3e-3;
 const AFTER_S: f64 = 5e-3;
 
-/// Standard error of a time on the detector's grid, in hops: a uniform error of one hop either way.
-const GRID_ERROR: f64 = 0.58;
-
 /// The whitened sound around one impact.
 #[derive(Debug, Clone)]
 pub struct Window {
@@ -52,38 +49,31 @@ pub struct Window {
     pub coarse: usize,
 }
 
-/// Times the impacts of one drop, given coarse times in ascending order.
+/// Times the impacts of one drop, given coarse times in ascending order and how far off they may be.
 ///
 /// The result is in the same order. Where a method fails on an impact (its window is cut by the end of the recording,
-/// or nothing rises in it) the coarse time stays, with the error of the grid.
+/// or nothing rises in it) the coarse time stays, with its error.
 #[must_use]
 pub fn refine(
     samples: &[f32],
     sample_rate_hz: f64,
-    coarse_s: &[f64],
-    hop_s: f64,
+    coarse: &[Timed],
     timing: Timing,
 ) -> Vec<Timed> {
-    let grid: Vec<Timed> = coarse_s
-        .iter()
-        .map(|&time_s| Timed {
-            time_s,
-            std_s: GRID_ERROR * hop_s,
-        })
-        .collect();
-    if timing == Timing::Envelope || coarse_s.is_empty() {
-        return grid;
+    if timing == Timing::Envelope || coarse.is_empty() {
+        return coarse.to_vec();
     }
-    let whitener = whiten::Whitener::learn(samples, sample_rate_hz, coarse_s);
+    let coarse_s: Vec<f64> = coarse.iter().map(|t| t.time_s).collect();
+    let whitener = whiten::Whitener::learn(samples, sample_rate_hz, &coarse_s);
     let together = if timing == Timing::Correlation {
-        joint::times(samples, sample_rate_hz, coarse_s, &whitener)
+        joint::times(samples, sample_rate_hz, coarse, &whitener)
     } else {
         None
     };
     // One drop is timed in one way: what its impacts have in common then cancels.
     together.unwrap_or_else(|| {
-        let each = grid.into_iter().map(|grid| {
-            by_fraction(samples, sample_rate_hz, grid.time_s, &whitener).unwrap_or(grid)
+        let each = coarse.iter().map(|coarse| {
+            by_fraction(samples, sample_rate_hz, coarse.time_s, &whitener).unwrap_or(*coarse)
         });
         each.collect()
     })

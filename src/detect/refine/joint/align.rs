@@ -14,8 +14,8 @@ const FIRST_S: f64 = 12e-3;
 const SHORTEST_S: f64 = 4e-3;
 /// Neighbours whose mean an impact is matched with.
 const NEIGHBOURS: usize = 3;
-/// The detector's times are off by this share of the sound's period (one standard deviation), and within these bounds in
-/// seconds whatever the sound.
+/// The detector's times are off by as much as it says, and at least by this share of the sound's period (one standard
+/// deviation) within these bounds in seconds.
 const JITTER_PERIODS: f64 = 0.3;
 const JITTER_S: (f64, f64) = (0.5e-3, 1.5e-3);
 /// Nor is an impact off by more than this share of a flight (one standard deviation): it was found where the flights
@@ -24,26 +24,29 @@ const FLIGHT_SHARE: f64 = 0.05;
 /// Energy is judged over this time either way, in seconds.
 const ENERGY_S: f64 = 4e-3;
 
-/// The impacts aligned, and the template that they give.
-pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[f64]) -> Option<Joint> {
+/// The impacts aligned, and the template that they give; `coarse` are the detector's times and their standard deviations in
+/// samples.
+pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[(f64, f64)]) -> Option<Joint> {
     let before = samples_in(BEFORE_S, rate);
-    let flights: Vec<f64> = coarse.windows(2).map(|w| w[1] - w[0]).collect();
+    let flights: Vec<f64> = coarse.windows(2).map(|w| w[1].0 - w[0].0).collect();
     let longest = longest(&flights, rate, before);
     let first = longest.min(samples_in(FIRST_S, rate));
     let cut =
         |position: f64, length: usize| shifted(&sound, position - real(before), before + length);
     let alone = |i: usize| flights.get(i).is_none_or(|&f| f > real(first));
-    let energy = |i: usize| cut(coarse[i], first).iter().map(|x| x * x).sum::<f64>();
+    let energy = |i: usize| cut(coarse[i].0, first).iter().map(|x| x * x).sum::<f64>();
     let loudest = (0..coarse.len())
         .filter(|&i| alone(i))
         .max_by(|&a, &b| energy(a).total_cmp(&energy(b)))?;
-    let jitter = jitter(&cut(coarse[loudest], first), rate);
+    let jitter = jitter(&cut(coarse[loudest].0, first), rate);
     let mut impacts: Vec<Impact> = (0..coarse.len())
         .map(|i| Impact {
-            position: coarse[i],
+            position: coarse[i].0,
             amplitude: 1.0,
-            coarse: coarse[i],
-            jitter: jitter.min(FLIGHT_SHARE * shortest_flight(&flights, i)),
+            coarse: coarse[i].0,
+            jitter: jitter
+                .max(coarse[i].1)
+                .min(FLIGHT_SHARE * shortest_flight(&flights, i)),
             slowness: 0.0,
             likeness: 1.0,
             doubt: 0.0,

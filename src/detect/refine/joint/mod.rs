@@ -84,10 +84,10 @@ struct Joint {
 pub(super) fn times(
     samples: &[f32],
     rate: f64,
-    coarse_s: &[f64],
+    coarse: &[Timed],
     whitener: &Whitener,
 ) -> Option<Vec<Timed>> {
-    let (start, mut joint) = started(samples, rate, coarse_s, whitener)?;
+    let (start, mut joint) = started(samples, rate, coarse, whitener)?;
     let late = drift::follow(&mut joint);
     let onset = joint.onset();
     let in_recording = |position: f64| (real(start) + position + onset) / rate;
@@ -115,14 +115,15 @@ pub(super) fn times(
 fn started(
     samples: &[f32],
     rate: f64,
-    coarse_s: &[f64],
+    coarse: &[Timed],
     whitener: &Whitener,
 ) -> Option<(usize, Joint)> {
-    if coarse_s.len() < FEWEST {
+    if coarse.len() < FEWEST {
         return None;
     }
-    let (start, sound) = stretch(samples, rate, coarse_s, whitener)?;
-    let coarse: Vec<f64> = coarse_s.iter().map(|t| t * rate - real(start)).collect();
+    let (start, sound) = stretch(samples, rate, coarse, whitener)?;
+    let in_samples = |t: &Timed| (t.time_s * rate - real(start), t.std_s * rate);
+    let coarse: Vec<(f64, f64)> = coarse.iter().map(in_samples).collect();
     Some((start, align::start(sound, rate, &coarse)?))
 }
 
@@ -130,10 +131,10 @@ fn started(
 fn stretch(
     samples: &[f32],
     rate: f64,
-    coarse_s: &[f64],
+    coarse: &[Timed],
     whitener: &Whitener,
 ) -> Option<(usize, Vec<f64>)> {
-    let (first_s, last_s) = (coarse_s.first()?, coarse_s.last()?);
+    let (first_s, last_s) = (coarse.first()?.time_s, coarse.last()?.time_s);
     let start = samples_in(first_s - LEAD_S, rate).max(whitener.past());
     let end = samples_in(last_s + LONGEST_S, rate).min(samples.len());
     Some((start, whitener.apply(samples, start, end)?))
