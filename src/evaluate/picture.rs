@@ -19,7 +19,8 @@ struct Mark {
     name: String,
     speed: f64,
     median: f64,
-    upper: f64,
+    /// None where so much was lost that it is infinite.
+    upper: Option<f64>,
 }
 
 /// On the left the error of the times of each way of timing, on the right the error of e of every way and model, against
@@ -34,11 +35,12 @@ pub fn figure(evaluation: &Evaluation) -> Figure {
         new
     });
     let times = times.filter_map(|row| {
-        let (median, upper) = (row.timing_error_median_s?, row.timing_error_p95_s?);
-        mark(row, row.timing.clone(), 1e6 * median, 1e6 * upper)
+        let upper = row.timing_error_p95_s.map(|s| 1e6 * s);
+        let median = 1e6 * row.timing_error_median_s?;
+        mark(row, row.timing.clone(), median, upper)
     });
     let restitutions = evaluation.rows.iter().filter_map(|row| {
-        let (median, upper) = (row.restitution_error_median?, row.restitution_error_p90?);
+        let (median, upper) = (row.restitution_error_median?, row.restitution_error_p90);
         mark(row, format!("{}, {}", row.timing, row.model), median, upper)
     });
     let limit = evaluation.limit_audio_s_per_s.unwrap_or(UNMEASURED_LIMIT);
@@ -61,9 +63,9 @@ pub fn figure(evaluation: &Evaluation) -> Figure {
 }
 
 /// None of what has no place on logarithmic axes.
-fn mark(row: &Row, name: String, median: f64, upper: f64) -> Option<Mark> {
+fn mark(row: &Row, name: String, median: f64, upper: Option<f64>) -> Option<Mark> {
     let speed = row.audio_s_per_s?;
-    (median > 0.0 && upper > 0.0 && speed > 0.0).then_some(Mark {
+    (median > 0.0 && upper.is_none_or(|u| u > 0.0) && speed > 0.0).then_some(Mark {
         name,
         speed,
         median,
@@ -74,7 +76,10 @@ fn mark(row: &Row, name: String, median: f64, upper: f64) -> Option<Mark> {
 fn panel(error: &str, upper: &str, mut marks: Vec<Mark>, limit: f64) -> Panel {
     marks.sort_by(|a, b| a.median.total_cmp(&b.median));
     let lowest = marks.first().map_or(1.0, |m| m.median);
-    let highest = marks.iter().map(|m| m.upper).fold(2.0 * lowest, f64::max);
+    let highest = marks
+        .iter()
+        .map(|m| m.upper.unwrap_or(m.median))
+        .fold(2.0 * lowest, f64::max);
     let slowest = marks.iter().map(|m| m.speed).fold(limit, f64::min);
     let fastest = marks.iter().map(|m| m.speed).fold(limit, f64::max);
     // The legend stands below the lowest mark.
@@ -101,7 +106,10 @@ fn panel(error: &str, upper: &str, mut marks: Vec<Mark>, limit: f64) -> Panel {
     .with(dots(
         Shape::Ring,
         upper,
-        marks.iter().map(|m| (m.speed, m.upper)).collect(),
+        marks
+            .iter()
+            .filter_map(|m| Some((m.speed, m.upper?)))
+            .collect(),
     ));
     // All names stand in one column, in the order of the marks.
     let beside = marks.iter().map(|m| m.speed).fold(0.0, f64::max);
@@ -145,5 +153,10 @@ mod tests {
         let svg = to_svg(&figure(&full)).unwrap();
         assert!(svg.contains("correlation, auto") && svg.contains("correlation, drag"));
         assert!(!svg.contains("correlation, speed"));
+        // What lost too much for its 90th percentile still has its median.
+        let mut rows = full.rows.clone();
+        rows[1].restitution_error_p90 = None;
+        let svg = to_svg(&figure(&Evaluation { rows, ..full })).unwrap();
+        assert!(svg.contains("correlation, drag"));
     }
 }
