@@ -139,10 +139,9 @@ impl Evidence {
     /// Hops that the quickest band looks ahead up to which the evidence of a peak is more than chance, or half of all.
     fn reach_of_evidence(&self, peak: usize) -> usize {
         let needed = (0.5 * self.total[peak]).min(BEYOND_CHANCE);
-        let mut bands: Vec<&Rise> = self.bands.iter().collect();
-        bands.sort_by_key(|rise| rise.after);
         let mut held = 0.0;
-        let enough = bands.iter().find(|rise| {
+        // The highest band comes first, and is the quickest.
+        let enough = self.bands.iter().find(|rise| {
             held += rise.scale * rise.own[peak];
             held >= needed
         });

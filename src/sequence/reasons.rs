@@ -90,9 +90,7 @@ fn delay_after(chain: &Chain, time_s: f64) -> Option<(f64, f64)> {
 /// Which events a chain explains, in order: its impacts and their echoes.
 #[must_use]
 pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
-    let own: Vec<usize> = chain.events().collect();
-    let echoes = echo_delays(scene, chain, |i| own.binary_search(&i).is_ok());
-    let mut explained = own;
+    let (mut explained, echoes) = own_echoes(scene, chain);
     for link in &chain.links {
         explained.extend(
             scene
@@ -112,8 +110,7 @@ pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
 /// long as an echo takes, and do not shrink as those of a ball do.
 #[must_use]
 pub fn returning_from(scene: &Scene<'_>, chain: &Chain) -> Option<usize> {
-    let own: Vec<usize> = chain.events().collect();
-    let echoes = echo_delays(scene, chain, |i| own.binary_search(&i).is_ok());
+    let (_, echoes) = own_echoes(scene, chain);
     let flights = chain.links.windows(2).map(|w| w[1].time_s - w[0].time_s);
     let flights: Vec<f64> = flights.collect();
     let same = |delay: f64| {
@@ -204,6 +201,13 @@ fn reason_within(drop: &Chain, time_s: f64, echoes: &[f64]) -> Option<Reason> {
         _ if previous.is_some() && next.is_some() => Some(Reason::BetweenImpacts),
         _ => None,
     }
+}
+
+/// The events of a chain, and the delays at which others follow many of them.
+fn own_echoes(scene: &Scene<'_>, chain: &Chain) -> (Vec<usize>, Vec<f64>) {
+    let own: Vec<usize> = chain.events().collect();
+    let echoes = echo_delays(scene, chain, |i| own.binary_search(&i).is_ok());
+    (own, echoes)
 }
 
 /// Delays at which something follows many of the impacts.
