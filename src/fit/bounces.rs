@@ -61,8 +61,8 @@ pub(super) struct Bounces {
     pub ln_stretch: Vec<f64>,
     /// … and how that depends on each fitted parameter.
     pub stretching: Vec<[f64; MOST]>,
-    /// Mean of `ln(e/e₀)` by the weight: θ is the mean of ln e, and e₀ that of fast impacts.
-    pub mean_loss: f64,
+    /// `ln(e/e₀)` by the weight at the mean speed: θ is ln e there, and e₀ that of fast impacts.
+    pub middle_loss: f64,
     /// Mean ln of the speed of arrival, as a flight without air of so many seconds has it: `ln(2v/g)`.
     pub mean_ln_speed: f64,
 }
@@ -80,8 +80,8 @@ impl Bounces {
         let arriving = &flights[..flights.len() - 1];
         let speeds: Vec<f64> = arriving.iter().map(|f| f.ends.ln_landing).collect();
         let mean_ln_speed = slowing::mean(speeds.iter().copied());
-        let (lost, mean_loss) = slowing.losses(values, &speeds);
-        let ln_restitution = values.ln_fast_restitution + mean_loss;
+        let (lost, middle_loss) = slowing.losses(values, &speeds, mean_ln_speed);
+        let ln_restitution = values.ln_fast_restitution + middle_loss;
         let off_s: Vec<f64> = observed
             .iter()
             .zip(trial_s)
@@ -118,7 +118,7 @@ impl Bounces {
             parameters: 1 + terms.count(),
             design,
             stretching,
-            mean_loss,
+            middle_loss,
             mean_ln_speed,
         })
     }

@@ -217,7 +217,7 @@ impl<'a> Fitted<'a> {
             drag_per_s2: next(terms.drag, values.drag_per_s2),
             exponent: next(terms.speed, 0.0),
             ln_restitution: self.parameter(0, 0.0),
-            ln_fast_gain: -self.bounces.mean_loss,
+            ln_fast_gain: -self.bounces.middle_loss,
             bounce_std: self.posterior.mean_of(|n, _| n.bounce),
             timing_scale: self.posterior.mean_of(|n, _| n.timing),
             mean_speed_s: self.bounces.mean_ln_speed.exp(),

@@ -12,7 +12,7 @@ pub(super) struct Flight {
     pub shorter: f64,
 }
 
-/// What the weight takes from ln e of one bounce, less the mean of all: θ is the mean of ln e.
+/// What the weight takes from ln e of one bounce, less what it takes at the mean speed: θ is ln e there.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Lost {
     pub ln: f64,
@@ -40,41 +40,49 @@ impl Slowing {
         })
     }
 
-    /// The losses at these ln speeds of arrival (as flights in seconds), and their mean.
+    /// The losses at these ln speeds of arrival (as flights in seconds), and that at their mean. The slowest impacts lose
+    /// far more than the mean speed does, so the mean of the losses would be the loss at no speed that anyone knows.
     ///
     /// # Formula
-    /// With `δ(s, e₀) ≈ −s·h(e₀)`, `κ = d ln h/d ln e₀ ≈ 1/l − 2l/(π² + l²) − 1/(1 + e₀)`, l = ln e₀, and `θ = l + δ̄`:
-    /// `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
-    pub(super) fn losses(&self, values: Values, ln_speeds: &[f64]) -> (Vec<Lost>, f64) {
+    /// With `δ(s, e₀) ≈ −s·h(e₀)`, `κ = d ln h/d ln e₀ ≈ 1/l − 2l/(π² + l²) − 1/(1 + e₀)`, l = ln e₀, and
+    /// `θ = l + δ̄`, δ̄ the loss at the mean speed: `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
+    pub(super) fn losses(
+        &self,
+        values: Values,
+        ln_speeds: &[f64],
+        mean_ln_speed: f64,
+    ) -> (Vec<Lost>, f64) {
         let Some(weight) = &self.weight else {
             return (vec![Lost::default(); ln_speeds.len()], 0.0);
         };
-        let mut lost: Vec<Lost> = ln_speeds
-            .iter()
-            .map(|ln_speed| {
-                let flight_s = ln_speed.exp();
-                let s = values.contact_s / flight_s;
-                let (ln, slope) = weight.at(s).loss;
-                Lost {
-                    ln,
-                    by_restitution: 0.0,
-                    by_contact: slope / flight_s,
-                    by_ln_flight: -s * slope,
-                }
-            })
-            .collect();
-        let mean_ln = mean(lost.iter().map(|l| l.ln));
-        let mean_by_contact = mean(lost.iter().map(|l| l.by_contact));
+        let at = |ln_speed: f64| {
+            let flight_s = ln_speed.exp();
+            let s = values.contact_s / flight_s;
+            let (ln, slope) = weight.at(s).loss;
+            Lost {
+                ln,
+                by_restitution: 0.0,
+                by_contact: slope / flight_s,
+                by_ln_flight: -s * slope,
+            }
+        };
+        let middle = at(mean_ln_speed);
         let l = self.ln_restitution;
         let kappa =
             1.0 / l - 2.0 * l / (std::f64::consts::PI.powi(2) + l * l) - 1.0 / (1.0 + l.exp());
-        let by_fast = kappa / (1.0 + kappa * mean_ln).max(LEAST_SLOPE);
-        for lost in &mut lost {
-            lost.ln -= mean_ln;
-            lost.by_restitution = by_fast * lost.ln;
-            lost.by_contact -= mean_by_contact + lost.by_restitution * mean_by_contact;
-        }
-        (lost, mean_ln)
+        let by_fast = kappa / (1.0 + kappa * middle.ln).max(LEAST_SLOPE);
+        let beyond = |ln_speed: &f64| {
+            let own = at(*ln_speed);
+            let ln = own.ln - middle.ln;
+            let by_restitution = by_fast * ln;
+            Lost {
+                ln,
+                by_restitution,
+                by_contact: own.by_contact - (1.0 + by_restitution) * middle.by_contact,
+                by_ln_flight: own.by_ln_flight,
+            }
+        };
+        (ln_speeds.iter().map(beyond).collect(), middle.ln)
     }
 
     /// The contact after a flight of this length, and its derivative by C.

@@ -161,7 +161,7 @@ impl<'a> State<'a> {
             self.values.drag_per_s2 + drag,
         );
         let before = self.values;
-        let fast = solution.values[0] - bounces.mean_loss;
+        let fast = solution.values[0] - bounces.middle_loss;
         self.values.ln_fast_restitution = fast.min(LEAST_LN_LOSS);
         self.set_values(contact_s, drag_per_s2);
         let shortest = self.shorter.iter().copied().fold(f64::INFINITY, f64::min);

@@ -7,7 +7,6 @@ use crate::fit::Estimate;
 use crate::physics::{Air, DRAG_RELATIVE_STD, FlightLaw, Oscillator, Restitution, Sphere};
 use crate::report::rule::{Judged, Outcome};
 use crate::report::{Drop, Model};
-use crate::units::real;
 
 /// Outside the speeds that were heard e may depend on speed as that of balls at large does, `e ∝ v^−p` with p of this
 /// size: by so much is ln e off for each unit of ln v.
@@ -150,8 +149,8 @@ impl<'a> Test<'a> {
         }
     }
 
-    /// How much ln e of a linear ball is greater at the rule's speed than at those heard, whose weight takes less from
-    /// fast impacts.
+    /// How much ln e of a linear ball is greater at the rule's speed than at the mean speed heard: its weight takes less
+    /// from fast impacts.
     ///
     /// # Formula
     /// ```text
@@ -162,14 +161,12 @@ impl<'a> Test<'a> {
             return 0.0;
         }
         let gain = || {
+            let mean = drop.restitution.as_ref()?.at_speed_m_per_s?;
             let (contact_s, _) = parameter(&drop.model, "contact_time_s")?;
             let ball = Oscillator::from_contact(Restitution::new(e).ok()?, contact_s).ok()?;
-            let speeds: Vec<f64> = speeds(drop).collect();
-            let slowness = speeds.iter().map(|v| 1.0 / v).sum::<f64>();
-            let mean = slowness / real(speeds.len());
             let rate = 2.0 * ball.damping_ratio() * (1.0 + e) * self.gravity_m_per_s2
                 / ball.natural_frequency_rad_per_s();
-            Some(rate * (mean - 1.0 / self.speed) / e)
+            Some(rate * (1.0 / mean - 1.0 / self.speed) / e)
         };
         gain().filter(|g: &f64| g.is_finite()).unwrap_or(0.0)
     }
