@@ -35,9 +35,17 @@ const ALIKE: f64 = 3.0;
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Ball {
     Constant,
-    Contact { contact_s: f64 },
-    Drag { per_s2: f64 },
-    Linear { contact_s: f64 },
+    Contact {
+        contact_s: f64,
+    },
+    Drag {
+        per_s2: f64,
+    },
+    Linear {
+        contact_s: f64,
+    },
+    /// With this e at the first impact.
+    Viscoelastic,
 }
 
 impl Ball {
@@ -47,6 +55,7 @@ impl Ball {
             Self::Contact { contact_s } => format!("contact {} ms", 1e3 * contact_s),
             Self::Drag { per_s2 } => format!("drag {per_s2} s⁻²"),
             Self::Linear { contact_s } => format!("linear {} ms", 1e3 * contact_s),
+            Self::Viscoelastic => "viscoelastic".to_owned(),
         }
     }
 
@@ -56,6 +65,7 @@ impl Ball {
             Self::Contact { .. } => Choice::Contact,
             Self::Drag { .. } => Choice::Drag,
             Self::Linear { .. } => Choice::Linear,
+            Self::Viscoelastic => Choice::Viscoelastic,
         }
     }
 
@@ -65,6 +75,7 @@ impl Ball {
             Self::Contact { .. } => "contact",
             Self::Drag { .. } => "drag",
             Self::Linear { .. } => "linear",
+            Self::Viscoelastic => "viscoelastic",
         }
     }
 
@@ -72,6 +83,52 @@ impl Ball {
         match self {
             Self::Contact { contact_s } | Self::Linear { contact_s } => Some(contact_s),
             _ => None,
+        }
+    }
+}
+
+/// How a ball bounces.
+enum Bouncing {
+    Alike(f64),
+    Linear(LinearContact),
+    Viscoelastic { loss: f64, at_speed: f64 },
+}
+
+impl Bouncing {
+    /// None if no ball of this kind has this e.
+    fn of(ball: Ball, ln_e: f64, first_speed: f64) -> Option<Self> {
+        Some(match ball {
+            Ball::Linear { contact_s } => {
+                let ball = Oscillator::from_contact(Restitution::from_ln(ln_e).unwrap(), contact_s);
+                let rule = ReleaseRule::ZeroDisplacement;
+                Self::Linear(LinearContact::new(ball.unwrap(), GRAVITY, rule).unwrap())
+            }
+            Ball::Viscoelastic => {
+                // y − ⅗y² = 1 − e at the first impact.
+                let root = (1.0 - 2.4 * (1.0 - ln_e.exp())).sqrt();
+                Self::Viscoelastic {
+                    loss: root.is_finite().then_some((1.0 - root) / 1.2)?,
+                    at_speed: first_speed,
+                }
+            }
+            _ => Self::Alike(ln_e),
+        })
+    }
+
+    /// ln e at a speed, and the contact in seconds where it depends on that; none if the ball stays.
+    fn at(&self, speed: f64) -> Option<(f64, Option<f64>)> {
+        match self {
+            Self::Alike(ln_e) => Some((*ln_e, None)),
+            Self::Linear(linear) => match linear.rebound(speed).unwrap() {
+                Rebound::Leaves(leaving) => {
+                    Some((leaving.restitution.ln(), Some(leaving.contact_time_s)))
+                }
+                Rebound::Stays => None,
+            },
+            Self::Viscoelastic { loss, at_speed } => {
+                let y = loss * (speed / at_speed).powf(0.2);
+                Some((((0.6 * y - 1.0) * y).ln_1p(), None))
+            }
         }
     }
 }
@@ -86,7 +143,8 @@ struct Cell {
 }
 
 impl Cell {
-    /// The times without their errors for a scatter of each bounce, and mean ln e; none if the ball comes to rest.
+    /// The times without their errors for a scatter of each bounce, and ln e at the mean speed; none if the ball comes to
+    /// rest.
     fn times(&self, ln_e: f64, first_s: f64, scatter: &[f64]) -> Option<(Vec<f64>, f64)> {
         let law = match self.ball {
             Ball::Drag { per_s2 } => {
@@ -95,36 +153,24 @@ impl Cell {
             _ => FlightLaw::without_air(GRAVITY),
         }
         .unwrap();
-        let linear = match self.ball {
-            Ball::Linear { contact_s } => {
-                let ball = Oscillator::from_contact(Restitution::from_ln(ln_e).unwrap(), contact_s);
-                let rule = ReleaseRule::ZeroDisplacement;
-                Some(LinearContact::new(ball.unwrap(), GRAVITY, rule).unwrap())
-            }
-            _ => None,
-        };
+        let first_speed = 0.5 * GRAVITY * first_s;
+        let bounce = Bouncing::of(self.ball, ln_e, first_speed)?;
         let mut times = vec![0.0];
-        let (mut at_s, mut speed, mut sum) = (0.0, 0.5 * GRAVITY * first_s, 0.0);
+        let (mut at_s, mut speed, mut ln_speeds) = (0.0, first_speed, 0.0);
         let mut contact_s = self.ball.contact_s().unwrap_or(0.0);
         for scatter in scatter {
             let hop = law.hop(speed).unwrap();
             at_s += contact_s + hop.time_s;
             times.push(at_s);
-            let mut ln_of_bounce = ln_e;
-            if let Some(linear) = linear {
-                let Rebound::Leaves(leaving) = linear.rebound(hop.landing_speed_m_per_s).unwrap()
-                else {
-                    return None;
-                };
-                contact_s = leaving.contact_time_s;
-                ln_of_bounce = leaving.restitution.ln();
-            }
-            sum += ln_of_bounce;
+            let (ln_of_bounce, longer_s) = bounce.at(hop.landing_speed_m_per_s)?;
+            contact_s = longer_s.unwrap_or(contact_s);
+            ln_speeds += hop.landing_speed_m_per_s.ln();
             speed = hop.landing_speed_m_per_s * (ln_of_bounce + scatter).exp();
         }
         let hop = law.hop(speed).unwrap();
         times.push(at_s + contact_s + hop.time_s);
-        Some((times, sum / real(scatter.len())))
+        let mean_speed = (ln_speeds / real(scatter.len())).exp();
+        Some((times, bounce.at(mean_speed)?.0))
     }
 
     fn is_in_reach(&self) -> bool {
@@ -169,7 +215,7 @@ impl Cell {
             derivative(self.times(ln_e, FIRST_S + STEP, &none)?.0, STEP),
         ];
         let ball = match self.ball {
-            Ball::Constant => None,
+            Ball::Constant | Ball::Viscoelastic => None,
             Ball::Contact { contact_s } => Some(Ball::Contact {
                 contact_s: contact_s + STEP,
             }),
@@ -310,6 +356,7 @@ fn cells() -> Vec<Cell> {
         Ball::Drag { per_s2: 1.4 },
         Ball::Linear { contact_s: 1e-3 },
         Ball::Linear { contact_s: 5e-3 },
+        Ball::Viscoelastic,
     ] {
         for e in [0.4, 0.6, 0.8, 0.93, 0.98] {
             for impacts in [4, 5, 8, 12, 20, 50, 150] {

@@ -111,7 +111,7 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
         budget: told.then_some(fit.budget),
         contact: fit.contact_s,
         drag: fit.drag_per_s2,
-        by_speed: fit.exponent.is_some(),
+        by_speed: fit.exponent.is_some() || climb.selected == "viscoelastic",
         warnings: warnings(&climb),
         model: model(&climb, &inputs),
     })

@@ -124,6 +124,8 @@ enum ModelChoice {
     Drag,
     /// e is a power of the impact speed
     Speed,
+    /// Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed
+    Viscoelastic,
 }
 
 impl From<ModelChoice> for Choice {
@@ -135,6 +137,7 @@ impl From<ModelChoice> for Choice {
             ModelChoice::Linear => Self::Linear,
             ModelChoice::Drag => Self::Drag,
             ModelChoice::Speed => Self::Speed,
+            ModelChoice::Viscoelastic => Self::Viscoelastic,
         }
     }
 }

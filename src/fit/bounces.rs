@@ -30,9 +30,21 @@ pub struct Terms {
     pub drag: Option<Known>,
     /// p.
     pub speed: Option<Known>,
-    /// Whether C is the contact of a linear ball with its weight: then slow impacts last longer and lose more, by what C
-    /// and e themselves say, and C stands for fast impacts.
-    pub weight: bool,
+    /// How slow impacts differ from fast ones.
+    pub law: Law,
+}
+
+/// How slow impacts differ from fast ones, by what C and e themselves say.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Law {
+    /// Not at all.
+    #[default]
+    Alike,
+    /// C is the contact of a linear ball with its weight: slow impacts last longer and lose more; C stands for fast ones.
+    Linear,
+    /// Viscoelastic spheres: `ln e(v) = θ·(v/v̄)^(1/5)`, slow impacts lose less (Ramírez, Pöschel, Brilliantov and
+    /// Schwager 1999; of their series `1 − e = y − ⅗y² + …` in `y ∝ v^(1/5)`, this is right to 0.1·y²).
+    Viscoelastic,
 }
 
 /// Trial values of C, K and, for a linear ball, e of fast impacts, in which the model is not linear.

@@ -1,11 +1,12 @@
 //! The fit on drops whose e, contact, drag and noises are known.
 
-use super::bounces::{Known, Terms};
+use super::bounces::{Known, Law, Terms};
 use super::flights::Impact;
 use super::ladder::{Choice, Inputs, climb};
 use super::model::fit;
 use crate::physics::{
-    Air, FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution, Sphere,
+    Air, FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution, RestitutionLaw,
+    Sphere,
 };
 use crate::random::SplitMix64;
 use crate::units::real;
@@ -116,7 +117,7 @@ fn contact_and_drag_that_are_fitted_keep_the_interval_true() {
             std: 2.0,
         }),
         speed: None,
-        weight: false,
+        law: Law::Alike,
     };
     let share = made.coverage(&terms, DROPS);
     assert!(COVERAGE.contains(&share), "{share}");
@@ -266,6 +267,39 @@ fn a_linear_balls_contact_and_e_come_back_on_its_own_rung() {
             "{fasts} of {DROPS} at {contact_s} s"
         );
     }
+}
+
+#[test]
+fn viscoelastic_spheres_are_told_from_a_power_of_the_speed_and_e_is_that_at_the_mean_speed() {
+    let law = RestitutionLaw::Viscoelastic {
+        gamma1: 0.07,
+        gamma2: 0.6 * 0.07 * 0.07,
+    };
+    let mut rng = SplitMix64::new(15);
+    let (mut held, mut taken) = (0, 0);
+    for _ in 0..60 {
+        let (mut at_s, mut speed) = (0.0, 2.0);
+        let mut impacts = Vec::new();
+        for _ in 0..90 {
+            impacts.push(Impact {
+                time_s: at_s + 1e-6 * rng.normal(),
+                std_s: 1e-6,
+                heard: true,
+            });
+            speed *= law.at(speed).unwrap().value() * (0.006 * rng.normal()).exp();
+            at_s += 2.0 * speed / 9.81;
+        }
+        let climb = climb(&impacts, &Inputs::default(), Choice::Auto).unwrap();
+        let truth = law.at(0.5 * 9.81 * climb.fit.mean_speed_s).unwrap().ln();
+        let [low, high] = climb.fit.ln_restitution.interval95.unwrap();
+        held += usize::from((low..high).contains(&truth));
+        taken += usize::from(climb.selected == "viscoelastic");
+    }
+    // A power of the speed that fits as well is 0.0015 off: two standard errors.
+    assert!(
+        held >= 52 && taken >= 57,
+        "{held} held, {taken} taken of 60"
+    );
 }
 
 #[test]

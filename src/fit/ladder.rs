@@ -1,6 +1,6 @@
 //! The ladder of models: constant e, and what is added where the recording supports it or the user knows it.
 
-use super::bounces::{Known, Terms};
+use super::bounces::{Known, Law, Terms};
 use super::flights::Impact;
 use super::model::{Fit, Fitted, Rival};
 
@@ -21,6 +21,8 @@ pub enum Choice {
     Drag,
     /// And a power of the impact speed.
     Speed,
+    /// Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed.
+    Viscoelastic,
 }
 
 /// What is known of the ball beforehand.
@@ -39,7 +41,7 @@ struct Rung {
     contact: bool,
     drag: bool,
     speed: bool,
-    weight: bool,
+    law: Law,
 }
 
 /// Constant e.
@@ -48,7 +50,7 @@ const CONSTANT: Rung = Rung {
     contact: false,
     drag: false,
     speed: false,
-    weight: false,
+    law: Law::Alike,
 };
 
 /// And the contact time.
@@ -61,13 +63,21 @@ const CONTACT: Rung = Rung {
 /// And the weight of a linear ball.
 const LINEAR: Rung = Rung {
     name: "linear",
-    weight: true,
+    law: Law::Linear,
     ..CONTACT
 };
 
+/// And slow impacts that lose less.
+const VISCOELASTIC: Rung = Rung {
+    name: "viscoelastic",
+    law: Law::Viscoelastic,
+    ..CONSTANT
+};
+
 /// From the simplest up. A model is compared with those that stand before it.
-const RUNGS: [Rung; 8] = [
+const RUNGS: [Rung; 9] = [
     CONSTANT,
+    VISCOELASTIC,
     CONTACT,
     LINEAR,
     Rung {
@@ -152,9 +162,10 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let wanted = |rung: &Rung| match choice {
         Choice::Auto => true,
         Choice::Contact if !contact => rung.name == "contact",
-        Choice::Linear => rung.weight && !rung.drag,
+        Choice::Linear => rung.law == Law::Linear && !rung.drag,
         Choice::Drag if !drag => rung.name == "drag",
         Choice::Speed => rung.name == "speed",
+        Choice::Viscoelastic => rung.name == "viscoelastic",
         // What is known is in every rung.
         Choice::Constant | Choice::Contact | Choice::Drag => rung.name == "constant",
     };
@@ -184,7 +195,8 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         })
         .collect();
     let selected = fits[best].0;
-    let rival = |rung: &Rung| rung.drag != selected.drag && rung.speed != selected.speed;
+    let rival =
+        |rung: &Rung| rung.drag != selected.drag && rung.is_by_speed() != selected.is_by_speed();
     let alike = (0..fits.len())
         .find(|&i| rival(fits[i].0) && (gain(i) - gain(best)).abs() < ALIKE)
         .map(|i| fits[i].0.name);
@@ -204,10 +216,16 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     })
 }
 
+impl Rung {
+    fn is_by_speed(&self) -> bool {
+        self.speed || self.law == Law::Viscoelastic
+    }
+}
+
 /// A term whose value is known is part of every rung and not a rung of its own.
-const fn is_fitted(rung: &Rung, inputs: &Inputs) -> bool {
+fn is_fitted(rung: &Rung, inputs: &Inputs) -> bool {
     // The weight is: it comes with a contact, known or not.
-    let contact_known = rung.contact && !rung.weight && inputs.contact_s.is_some();
+    let contact_known = rung.contact && rung.law != Law::Linear && inputs.contact_s.is_some();
     !(contact_known || rung.drag && inputs.drag_per_s2.is_some())
 }
 
@@ -220,14 +238,15 @@ fn terms(rung: &Rung, inputs: &Inputs) -> Terms {
             .drag_per_s2
             .or_else(|| rung.drag.then_some(DRAG_KNOWN)),
         speed: rung.speed.then_some(EXPONENT_KNOWN),
-        weight: rung.weight,
+        law: rung.law,
     }
 }
 
-/// How many parameters a rung fits.
+/// How many parameters a rung fits; that e goes with speed has to earn as much where a law says how.
 fn parameters(rung: &Rung, inputs: &Inputs) -> f64 {
     let contact = rung.contact && inputs.contact_s.is_none();
-    [contact, rung.drag, rung.speed]
+    let viscoelastic = rung.law == Law::Viscoelastic;
+    [contact, rung.drag, rung.speed, viscoelastic]
         .iter()
         .filter(|on| **on)
         .map(|_| 1.0)

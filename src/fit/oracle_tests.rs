@@ -3,7 +3,7 @@
 
 use serde::Deserialize;
 
-use super::bounces::{Bounces, Known, MOST, Terms, Values};
+use super::bounces::{Bounces, Known, Law, MOST, Terms, Values};
 use super::flights::Impact;
 use super::least_squares::{Prior, Solution, solve};
 use super::model::fit;
@@ -77,7 +77,7 @@ impl Row {
             contact: self.contact_s.map(known),
             drag: self.drag_per_s2.map(known),
             speed: self.exponent.map(known),
-            weight: false,
+            law: Law::Alike,
         }
     }
 

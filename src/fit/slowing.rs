@@ -1,6 +1,6 @@
-//! How slow impacts differ from fast ones: not at all, or by the weight of a linear ball.
+//! How slow impacts differ from fast ones: not at all, by the weight of a linear ball, or as viscoelastic spheres.
 
-use super::bounces::{Terms, Values};
+use super::bounces::{Law, Terms, Values};
 use super::weight::Weight;
 use crate::physics::ends::Ends;
 use crate::units::real;
@@ -24,8 +24,14 @@ pub(super) struct Lost {
 
 /// The law of slow impacts.
 pub(super) struct Slowing {
-    weight: Option<Weight>,
+    law: Laws,
     ln_restitution: f64,
+}
+
+enum Laws {
+    Alike,
+    Linear(Weight),
+    Viscoelastic,
 }
 
 impl Slowing {
@@ -33,28 +39,57 @@ impl Slowing {
     pub(super) fn of(trial_s: &[f64], terms: &Terms, values: Values) -> Option<Self> {
         let flights = trial_s.windows(2).map(|w| w[1] - w[0] - values.contact_s);
         let shortest = flights.fold(f64::INFINITY, f64::min);
-        let of_ball = || Weight::of(values.ln_fast_restitution, values.contact_s / shortest);
+        let ln_restitution = values.ln_fast_restitution;
+        let law = match terms.law {
+            Law::Alike => Laws::Alike,
+            Law::Linear => Laws::Linear(Weight::of(ln_restitution, values.contact_s / shortest)?),
+            Law::Viscoelastic => Laws::Viscoelastic,
+        };
         Some(Self {
-            weight: if terms.weight { Some(of_ball()?) } else { None },
-            ln_restitution: values.ln_fast_restitution,
+            law,
+            ln_restitution,
         })
     }
 
-    /// The losses at these ln speeds of arrival (as flights in seconds), and that at their mean. The slowest impacts lose
-    /// far more than the mean speed does, so the mean of the losses would be the loss at no speed that anyone knows.
-    ///
-    /// # Formula
-    /// With `δ(s, e₀) ≈ −s·h(e₀)`, `κ = d ln h/d ln e₀ ≈ 1/l − 2l/(π² + l²) − 1/(1 + e₀)`, l = ln e₀, and
-    /// `θ = l + δ̄`, δ̄ the loss at the mean speed: `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
+    /// The losses at these ln speeds of arrival (as flights in seconds), beyond that at their mean, and what that is less
+    /// than e of fast impacts.
     pub(super) fn losses(
         &self,
         values: Values,
         ln_speeds: &[f64],
         mean_ln_speed: f64,
     ) -> (Vec<Lost>, f64) {
-        let Some(weight) = &self.weight else {
-            return (vec![Lost::default(); ln_speeds.len()], 0.0);
-        };
+        match &self.law {
+            Laws::Alike => (vec![Lost::default(); ln_speeds.len()], 0.0),
+            Laws::Linear(weight) => self.by_weight(weight, values, ln_speeds, mean_ln_speed),
+            Laws::Viscoelastic => {
+                let lost = |ln_speed: &f64| {
+                    let factor = (FIFTH * (ln_speed - mean_ln_speed)).exp();
+                    Lost {
+                        ln: self.ln_restitution * (factor - 1.0),
+                        by_restitution: factor - 1.0,
+                        by_contact: 0.0,
+                        by_ln_flight: self.ln_restitution * FIFTH * factor,
+                    }
+                };
+                (ln_speeds.iter().map(lost).collect(), 0.0)
+            }
+        }
+    }
+
+    /// The losses of a linear ball. The slowest impacts lose far more than the mean speed does, so the mean of the losses
+    /// would be the loss at no speed that anyone knows.
+    ///
+    /// # Formula
+    /// With `δ(s, e₀) ≈ −s·h(e₀)`, `κ = d ln h/d ln e₀ ≈ 1/l − 2l/(π² + l²) − 1/(1 + e₀)`, l = ln e₀, and
+    /// `θ = l + δ̄`, δ̄ the loss at the mean speed: `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
+    fn by_weight(
+        &self,
+        weight: &Weight,
+        values: Values,
+        ln_speeds: &[f64],
+        mean_ln_speed: f64,
+    ) -> (Vec<Lost>, f64) {
         let at = |ln_speed: f64| {
             let flight_s = ln_speed.exp();
             let s = values.contact_s / flight_s;
@@ -87,7 +122,7 @@ impl Slowing {
 
     /// The contact after a flight of this length, and its derivative by C.
     fn contact(&self, contact_s: f64, flight_s: f64) -> (f64, f64) {
-        let Some(weight) = &self.weight else {
+        let Laws::Linear(weight) = &self.law else {
             return (contact_s, 1.0);
         };
         let s = contact_s / flight_s;
@@ -96,6 +131,8 @@ impl Slowing {
     }
 }
 
+/// The power of the speed that ln e of viscoelastic spheres goes with.
+const FIFTH: f64 = 0.2;
 /// θ follows e₀ by this much at least.
 const LEAST_SLOPE: f64 = 0.2;
 

@@ -1,6 +1,6 @@
 //! A trial of times and parameters, settled by rounds of linear fits.
 
-use super::bounces::{Bounces, Known, Terms, Values};
+use super::bounces::{Bounces, Known, Law, Terms, Values};
 use super::flights::Impact;
 use super::least_squares::{Prior, Solution};
 use super::noise::{Noise, Sizes};
@@ -78,8 +78,8 @@ impl<'a> State<'a> {
     }
 
     /// C in shortest intervals.
-    const fn longest_contact(&self) -> f64 {
-        if self.terms.weight {
+    fn longest_contact(&self) -> f64 {
+        if self.terms.law == Law::Linear {
             LONGEST_LINEAR_CONTACT
         } else {
             LONGEST_CONTACT

@@ -14,6 +14,8 @@ pub(super) struct Law {
     /// e is `restitution` at this speed in m/s, and goes with this power of how much slower an impact is.
     at_speed_m_per_s: f64,
     exponent: f64,
+    /// Whether ln e goes with the fifth root of the speed instead.
+    viscoelastic: bool,
     contact_s: f64,
     /// K in s⁻².
     drag_per_s2: f64,
@@ -42,6 +44,7 @@ impl Law {
             restitution: restitution.estimate.value,
             at_speed_m_per_s: restitution.at_speed_m_per_s?,
             exponent: parameter("speed_exponent").unwrap_or(0.0),
+            viscoelastic: drop.model.selected == "viscoelastic",
             contact_s: parameter("contact_time_s").unwrap_or(0.0),
             drag_per_s2: parameter("drag_per_s2").unwrap_or(0.0),
             gravity_m_per_s2,
@@ -62,8 +65,12 @@ impl Law {
     pub(super) fn contact(&self, speed_m_per_s: f64) -> Option<(f64, f64)> {
         let Some(weighty) = &self.weighty else {
             let slower = self.at_speed_m_per_s / speed_m_per_s;
-            let e = self.factor * self.restitution * slower.powf(self.exponent);
-            return Some((e, self.contact_s));
+            let own = if self.viscoelastic {
+                self.restitution.powf(slower.powf(-0.2))
+            } else {
+                self.restitution * slower.powf(self.exponent)
+            };
+            return Some((self.factor * own, self.contact_s));
         };
         match weighty.rebound(speed_m_per_s).ok()? {
             Rebound::Leaves(leaving) => Some((
@@ -149,6 +156,7 @@ mod tests {
             restitution: 0.9,
             at_speed_m_per_s: 1.0,
             exponent: 0.02,
+            viscoelastic: false,
             contact_s: 1e-3,
             drag_per_s2: 1.2,
             gravity_m_per_s2: 9.81,
@@ -167,5 +175,24 @@ mod tests {
         assert!(worst.fold(0.0, f64::max) < 1e-4);
         let livelier = law.with_restitution(0.91).intervals(2.4, 20);
         assert!(livelier[19] > truth[19]);
+    }
+
+    #[test]
+    fn a_viscoelastic_ball_loses_as_the_fifth_root_of_its_speed() {
+        let law = Law {
+            restitution: 0.9,
+            at_speed_m_per_s: 1.0,
+            exponent: 0.0,
+            viscoelastic: true,
+            contact_s: 0.0,
+            drag_per_s2: 0.0,
+            gravity_m_per_s2: 9.81,
+            weighty: None,
+            factor: 1.0,
+        };
+        let e = |speed: f64| law.contact(speed).map(|(e, _)| e);
+        assert_eq!(e(1.0), Some(0.9));
+        let slow = e(1.0 / 32.0).map(|e| e - 0.9_f64.sqrt());
+        assert!(slow.is_some_and(|off| off.abs() < 1e-12), "{slow:?}");
     }
 }

@@ -180,6 +180,19 @@ fn an_e_that_falls_with_speed_is_taken_at_the_speed_of_the_rule() {
 }
 
 #[test]
+fn a_viscoelastic_ball_loses_as_the_fifth_root_of_the_speed_of_the_rule() {
+    let mut drop = heard(0.91, 0.001);
+    drop.model.selected = "viscoelastic";
+    let found = judged(&steel(), drop);
+    let factor = (found.impact_speed_m_per_s / 1.2).powf(0.2);
+    let e = found.restitution.unwrap();
+    assert!(
+        factor > 1.1 && (e - 0.91_f64.powf(factor)).abs() < 1e-12,
+        "{e}"
+    );
+}
+
+#[test]
 fn a_linear_ball_loses_less_at_the_speed_of_the_rule() {
     let mut drop = heard(0.91, 0.001);
     let contact = serde_json::json!({"value": 1e-3, "std_error": 1e-5});

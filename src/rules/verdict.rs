@@ -140,7 +140,15 @@ impl<'a> Test<'a> {
         let by_model = exponent.map_or(0.0, |(_, std)| std * ln_speed);
         // A fitted exponent has its own error out there.
         let by_chance = exponent.map_or(EXPONENT_BEYOND * beyond, |_| 0.0);
-        let ln = e.ln() - exponent.map_or(0.0, |(p, _)| p * ln_speed) + self.by_weight(drop, e);
+        let by_law = exponent.map_or(0.0, |(p, _)| p * ln_speed);
+        // As exp(ln v/5): ln e of viscoelastic spheres goes with the fifth root of the speed.
+        let viscoelastic = drop.model.selected == "viscoelastic";
+        let factor = if viscoelastic {
+            (0.2 * ln_speed).exp()
+        } else {
+            1.0
+        };
+        let ln = factor * e.ln() - by_law + self.by_weight(drop, e);
         AtSpeed {
             // However a model is drawn out, no ball gains.
             ln: ln.min(-f64::EPSILON),
