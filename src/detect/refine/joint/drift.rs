@@ -47,9 +47,12 @@ const EXPONENT: f64 = -0.2;
 const FEWEST: usize = 5;
 const FEWEST_LINEAR: usize = 8;
 const FEWEST_SQUARE: usize = 12;
-/// The beginning ends where the sound first reaches these shares of its greatest value. Both have to agree.
-const SHORTER: f64 = 0.8;
-const LONGER: f64 = 1.0;
+/// The beginning ends where the sound first reaches one of these shares of its greatest value. Two that follow one another
+/// have to agree: the longest tells most, but the crests of loud impacts may be cut off.
+const SHARES: [f64; 3] = [1.0, 0.8, 0.6];
+/// All impacts are asked first, then those alone whose beginning stands out by so many standard deviations: faint ones may
+/// match at a wrong crest.
+const CLEAR: [f64; 2] = [f64::NEG_INFINITY, 10.0];
 /// Standard errors by which a drift has to differ from none, and at most two beginnings from each other.
 const SIGNIFICANT: f64 = 4.0;
 const AGREEING: f64 = 3.0;
@@ -116,14 +119,33 @@ impl Joint {
     }
 }
 
-/// The drift, if it is one: slow impacts match late, and both beginnings say so.
+/// The drift, if it is one: slow impacts match late, and two beginnings say so, of all impacts or of the clear ones.
 fn late(joint: &Joint) -> Option<Late> {
-    let mut begins = Beginnings::of(joint, LONGER)?;
+    let tried = CLEAR
+        .iter()
+        .flat_map(|&clear| SHARES.windows(2).map(move |pair| (clear, pair)));
+    tried
+        .into_iter()
+        .find_map(|(clear, pair)| late_by(joint, clear, pair))
+}
+
+/// The same by two beginnings, of the impacts that are so clear.
+fn late_by(joint: &Joint, clear: f64, shares: &[f64]) -> Option<Late> {
+    let &[longer, shorter] = shares else {
+        return None;
+    };
+    let mut begins = Beginnings::of(joint, longer, clear)?;
     let longer = drift(joint, &begins.settled())?;
     // From where the longer beginnings stand, the shorter ones cannot be missed.
-    begins.length = beginning(joint, SHORTER)?;
-    let shorter = drift(joint, &begins.settled())?;
-    let slownesses = joint.impacts.iter().map(|i| i.slowness);
+    begins.length = beginning(joint, shorter)?;
+    let places = begins.settled();
+    let shorter = drift(joint, &places)?;
+    let known = joint
+        .impacts
+        .iter()
+        .zip(&places)
+        .filter(|(_, place)| place.is_some());
+    let slownesses = known.map(|(impact, _)| impact.slowness);
     let range = slownesses.fold((0.0_f64, 0.0_f64), |(a, b), u| (a.min(u), b.max(u)));
     let ((long, long_std), (short, short_std)) = (longer.whole(range), shorter.whole(range));
     let agree = (short - long).abs() < AGREEING * short_std.hypot(long_std);
@@ -131,16 +153,21 @@ fn late(joint: &Joint) -> Option<Late> {
 }
 
 /// "Begins" less "matches" as a function of slowness, by least squares that forgive what lies far off.
-fn drift(joint: &Joint, begins: &[(f64, f64)]) -> Option<Late> {
-    let values: Vec<Value> = begins
-        .iter()
-        .zip(&joint.impacts)
-        .map(|(&(position, std), impact)| Value {
-            slowness: impact.slowness,
-            late: position - impact.position,
-            std: std.hypot(SCATTER_S * joint.rate),
+fn drift(joint: &Joint, begins: &[Option<(f64, f64)>]) -> Option<Late> {
+    let known = begins.iter().zip(&joint.impacts);
+    let values: Vec<Value> = known
+        .filter_map(|(begin, impact)| {
+            let (position, std) = (*begin)?;
+            Some(Value {
+                slowness: impact.slowness,
+                late: position - impact.position,
+                std: std.hypot(SCATTER_S * joint.rate),
+            })
         })
         .collect();
+    if values.len() < FEWEST {
+        return None;
+    }
     let terms = joint.template.components.len().max(2);
     let mut weights: Vec<f64> = values.iter().map(|v| 1.0 / (v.std * v.std)).collect();
     let mut drift = None;
@@ -239,10 +266,12 @@ struct Beginnings {
     /// Samples of a beginning, before the onset and in all.
     lead: usize,
     length: usize,
+    /// Standard deviations of the noise by which a beginning has to stand out.
+    clear: f64,
 }
 
 impl Beginnings {
-    fn of(joint: &Joint, share: f64) -> Option<Self> {
+    fn of(joint: &Joint, share: f64, clear: f64) -> Option<Self> {
         let lead = lead(joint);
         let length = beginning(joint, share)?;
         let margin = samples_in(LEAD_S, joint.rate) + KERNEL;
@@ -256,11 +285,12 @@ impl Beginnings {
             first,
             lead,
             length,
+            clear,
         })
     }
 
-    /// Positions in the stretch and their standard errors, in samples.
-    fn settled(&mut self) -> Vec<(f64, f64)> {
+    /// Positions in the stretch and their standard errors, in samples, of those that are clear.
+    fn settled(&mut self) -> Vec<Option<(f64, f64)>> {
         let noise = vec![1.0; self.length];
         let mut stds = vec![f64::INFINITY; self.sounds.len()];
         for _ in 0..ROUNDS {
@@ -277,7 +307,8 @@ impl Beginnings {
                 let normal = Normal::of(cut, &noise, &shape, &slopes);
                 let (amplitude, moved, std) = normal.solve(self.amplitudes[i]);
                 self.amplitudes[i] = amplitude.max(0.3 * self.amplitudes[i]);
-                stds[i] = std;
+                let is_clear = normal.clearness(amplitude) >= self.clear;
+                stds[i] = if is_clear { std } else { f64::INFINITY };
                 moves.push(moved.clamp(-1.0, 1.0));
             }
             let (sum, weight) = moves
@@ -292,10 +323,10 @@ impl Beginnings {
                 *p += m - common;
             }
         }
-        let first = self.first;
-        let moved = self.positions.iter().map(|p| p - first);
+        let moved = self.positions.iter().map(|p| p - self.first);
         let places = self.origins.iter().zip(moved).map(|(o, m)| o + m);
-        places.zip(stds).collect()
+        let clear = |(place, std): (f64, f64)| std.is_finite().then_some((place, std));
+        places.zip(stds).map(clear).collect()
     }
 
     fn mean(&self, cuts: &[Vec<f64>]) -> Vec<f64> {
