@@ -297,3 +297,19 @@ fn times_do_not_walk_with_longer_contacts_where_the_crests_of_the_loudest_are_cu
         );
     }
 }
+
+#[test]
+fn impacts_of_a_soft_ball_are_matched_where_automatic_gain_hides_when_they_began() {
+    let mut scene = preset("superball").unwrap();
+    scene.duration_s = 9.0;
+    scene.noise.white_db = -64.0;
+    scene.noise.pink_db = -60.0;
+    scene.recorder.soft_limit_db = Some(-9.0);
+    scene.recorder.automatic_gain = preset("phone").unwrap().recorder.automatic_gain;
+    for seed in SEEDS {
+        let made = render(&scene, seed).unwrap();
+        let found = compare(&listen(&made), &made.truth.drops[0]);
+        assert!(found.missed.len() <= 6, "seed {seed}: {:?}", found.missed);
+        assert!(found.spurious <= 1, "seed {seed}: {}", found.spurious);
+    }
+}

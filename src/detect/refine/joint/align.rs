@@ -61,9 +61,11 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[(f64, f64)]) -> Option
         let power: f64 = near.iter().map(|&j| impacts[j].amplitude.powi(2)).sum();
         let noise = vec![1.0 / power; shape.len()];
         let head = Template::new(shape, noise, before);
-        if let Some((position, amplitude)) = matched(&mut correlator, &sound, &impacts[i], &head) {
-            impacts[i].position = position;
-            impacts[i].amplitude = amplitude;
+        let usual = (power / real(near.len())).sqrt();
+        let farthest = FLIGHT_SHARE * shortest_flight(&flights, i);
+        let found = placed(&mut correlator, &sound, &impacts[i], &head, usual, farthest);
+        if let Some(found) = found {
+            impacts[i] = found;
             aligned.push(i);
         } else {
             impacts[i].amplitude = FAINT;
@@ -77,6 +79,44 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[(f64, f64)]) -> Option
         template,
         correlator,
     })
+}
+
+/// A match of less than this share of its neighbours' size is sought again, so many times farther from its coarse time …
+const LOST: f64 = 0.5;
+const WIDER: f64 = 4.0;
+/// … and is taken there if it is so many times larger.
+const LOUDER: f64 = 2.0;
+
+/// An impact where it matches, of about the usual amplitude. Where a sound rises slowly the detector can be off by more than
+/// it says, but at most by `farthest`.
+fn placed(
+    correlator: &mut Correlator,
+    sound: &[f64],
+    impact: &Impact,
+    head: &Template,
+    usual: f64,
+    farthest: f64,
+) -> Option<Impact> {
+    let mut at = |jitter: f64| {
+        let impact = Impact {
+            jitter,
+            ..impact.clone()
+        };
+        let (position, amplitude) = matched(correlator, sound, &impact, head)?;
+        Some(Impact {
+            position,
+            amplitude,
+            ..impact
+        })
+    };
+    let near = at(impact.jitter);
+    let loud = near.as_ref().map_or(0.0, |n| n.amplitude);
+    if loud > LOST * usual {
+        return near;
+    }
+    let far = at((WIDER * impact.jitter).min(farthest));
+    far.filter(|f| f.amplitude > (LOST * usual).max(LOUDER * loud))
+        .or(near)
 }
 
 /// An impact that matches nothing is taken to be this loud until it does.
