@@ -124,6 +124,28 @@ fn contact_and_drag_that_are_fitted_keep_the_interval_true() {
 }
 
 #[test]
+fn the_air_that_slows_a_heavy_ball_unseen_is_in_the_interval() {
+    // A ball of 50 g and 3 cm: its drag gains nothing, and yet moves e by 0.001.
+    let made = Made {
+        e: 0.97,
+        impacts: 90,
+        terminal_speed: Some(50.0),
+        time_std_s: 1e-6,
+        bounce_std: 0.002,
+        ..STEEL
+    };
+    let mut rng = SplitMix64::new(16);
+    let (mut held, mut told) = (0, 0);
+    for _ in 0..100 {
+        let climb = climb(&made.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
+        let [low, high] = climb.fit.ln_restitution.interval95.unwrap();
+        held += usize::from((low..high).contains(&made.e.ln()));
+        told += usize::from(climb.fit.drag_per_s2.is_some());
+    }
+    assert!(held >= 90 && told <= 10, "{held} held, {told} with a drag");
+}
+
+#[test]
 fn the_ladder_is_climbed_as_far_as_the_drop_supports() {
     let mut rng = SplitMix64::new(5);
     let plain = climb(&STEEL.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();

@@ -117,6 +117,12 @@ const DRAG_KNOWN: Known = Known {
     value: 1.0,
     std: 2.0,
 };
+/// K where drag is no rung of its own: there is air all the same, 0.02 for steel, 0.1 for a golf ball. One in ten of what is
+/// thought of as such a ball has more than 0.1.
+const LITTLE_DRAG_KNOWN: Known = Known {
+    value: 0.0,
+    std: 0.06,
+};
 /// p of balls at large: e of a tennis ball falls by 6 % where the speed grows by e, that of a plastic one by 25 %.
 const EXPONENT_KNOWN: Known = Known {
     value: 0.05,
@@ -208,9 +214,14 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         .filter_map(|i| fits[i].1.rival((gain(i) - gain(best)).exp()))
         .collect();
     let (_, fit) = fits.into_iter().nth(best)?;
+    let mut fit = fit.summary().among(&rivals);
+    if !selected.drag && inputs.drag_per_s2.is_none() {
+        // It is not told from none.
+        fit.drag_per_s2 = None;
+    }
     Some(Climb {
         selected: selected.name,
-        fit: fit.summary().among(&rivals),
+        fit,
         candidates,
         alike,
     })
@@ -234,9 +245,11 @@ fn terms(rung: &Rung, inputs: &Inputs) -> Terms {
         contact: inputs
             .contact_s
             .or_else(|| rung.contact.then_some(CONTACT_KNOWN)),
-        drag: inputs
-            .drag_per_s2
-            .or_else(|| rung.drag.then_some(DRAG_KNOWN)),
+        drag: inputs.drag_per_s2.or(Some(if rung.drag {
+            DRAG_KNOWN
+        } else {
+            LITTLE_DRAG_KNOWN
+        })),
         speed: rung.speed.then_some(EXPONENT_KNOWN),
         law: rung.law,
     }
