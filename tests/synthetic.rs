@@ -313,3 +313,16 @@ fn impacts_of_a_soft_ball_are_matched_where_automatic_gain_hides_when_they_began
         assert!(found.spurious <= 1, "seed {seed}: {}", found.spurious);
     }
 }
+
+#[test]
+fn the_last_impacts_of_a_thud_are_matched_by_more_than_half_a_period() {
+    for seed in SEEDS {
+        let (found, made) = found_in("basketball", seed);
+        let audible = made.truth.drops[0].audible.iter().filter(|&&a| a).count();
+        assert!(
+            found.errors_s.len() + 1 >= audible,
+            "seed {seed}: {:?}",
+            found.missed
+        );
+    }
+}

@@ -16,8 +16,11 @@ const FEWEST: usize = 3;
 const ROUNDS: usize = 3;
 /// The part of the sound that is matched holds this share of its energy …
 const MATCHED_SHARE: f64 = 0.8;
-/// … within this range of lengths, in seconds: longer ones would reach into the next impact.
+/// … within this range of lengths, in seconds: longer ones would reach into the next impact …
 const MATCHED_S: (f64, f64) = (1.5e-3, 6e-3);
+/// … but where the shortest flight known is long, up to this share of it: a thud of 100 Hz is not known by half a period.
+const MATCHED_FLIGHT: f64 = 0.2;
+const MATCHED_LONGEST_S: f64 = 20e-3;
 /// The sound of one impact, whitened.
 #[derive(Debug, Clone)]
 pub(super) struct Voice {
@@ -57,7 +60,9 @@ impl Voice {
             return None;
         }
         let shape = mean_shape(&sounds, length);
-        let matched = matched_length(&shape, before, rate);
+        let shortest_s = flights.last().copied().unwrap_or(0.0);
+        let most_s = (MATCHED_FLIGHT * shortest_s).clamp(MATCHED_S.1, MATCHED_LONGEST_S);
+        let matched = matched_length(&shape, before, rate, most_s);
         Some(Self {
             shape,
             before,
@@ -116,7 +121,7 @@ fn mean_shape(sounds: &[Vec<f64>], length: usize) -> Vec<f64> {
     shape
 }
 
-fn matched_length(shape: &[f64], before: usize, rate: f64) -> usize {
+fn matched_length(shape: &[f64], before: usize, rate: f64, most_s: f64) -> usize {
     let energy = dot(shape, shape);
     let mut sum = 0.0;
     let enough = shape
@@ -128,7 +133,7 @@ fn matched_length(shape: &[f64], before: usize, rate: f64) -> usize {
         .unwrap_or(shape.len());
     let range = (
         before + samples_in(MATCHED_S.0, rate),
-        before + samples_in(MATCHED_S.1, rate),
+        before + samples_in(most_s, rate),
     );
     enough.clamp(range.0.min(shape.len()), range.1.min(shape.len()))
 }

@@ -110,7 +110,7 @@ const RUNGS: [Rung; 9] = [
 /// C of balls at large, in seconds: from a steel ball's tenth of a millisecond to a basketball's twelve.
 const CONTACT_KNOWN: Known = Known {
     value: 2e-3,
-    std: 4e-3,
+    std: 6e-3,
 };
 /// K of balls at large, s⁻²: nearly 0 for steel, 1.4 for a ping-pong ball, 5 for a foam ball.
 const DRAG_KNOWN: Known = Known {
