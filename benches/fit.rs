@@ -51,6 +51,7 @@ fn main() {
         ("linear", Choice::Linear),
         ("drag", Choice::Drag),
         ("speed", Choice::Speed),
+        ("viscoelastic", Choice::Viscoelastic),
         ("auto", Choice::Auto),
     ] {
         println!("{name:<10} {:>8.0}", median_us(choice));

@@ -245,7 +245,7 @@ fn terms(rung: &Rung, inputs: &Inputs) -> Terms {
         contact: inputs
             .contact_s
             .or_else(|| rung.contact.then_some(CONTACT_KNOWN)),
-        drag: inputs.drag_per_s2.or(Some(if rung.drag {
+        drag: Some(inputs.drag_per_s2.unwrap_or(if rung.drag {
             DRAG_KNOWN
         } else {
             LITTLE_DRAG_KNOWN

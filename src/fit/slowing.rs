@@ -2,6 +2,7 @@
 
 use super::bounces::{Law, Terms, Values};
 use super::weight::Weight;
+use crate::physics::VISCOELASTIC_POWER;
 use crate::physics::ends::Ends;
 use crate::units::real;
 
@@ -12,7 +13,7 @@ pub(super) struct Flight {
     pub shorter: f64,
 }
 
-/// What the weight takes from ln e of one bounce, less what it takes at the mean speed: θ is ln e there.
+/// What the law takes from ln e of one bounce, less what it takes at the mean speed: θ is ln e there.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Lost {
     pub ln: f64,
@@ -64,12 +65,12 @@ impl Slowing {
             Laws::Linear(weight) => self.by_weight(weight, values, ln_speeds, mean_ln_speed),
             Laws::Viscoelastic => {
                 let lost = |ln_speed: &f64| {
-                    let factor = (FIFTH * (ln_speed - mean_ln_speed)).exp();
+                    let factor = (VISCOELASTIC_POWER * (ln_speed - mean_ln_speed)).exp();
                     Lost {
                         ln: self.ln_restitution * (factor - 1.0),
                         by_restitution: factor - 1.0,
                         by_contact: 0.0,
-                        by_ln_flight: self.ln_restitution * FIFTH * factor,
+                        by_ln_flight: self.ln_restitution * VISCOELASTIC_POWER * factor,
                     }
                 };
                 (ln_speeds.iter().map(lost).collect(), 0.0)
@@ -131,8 +132,6 @@ impl Slowing {
     }
 }
 
-/// The power of the speed that ln e of viscoelastic spheres goes with.
-const FIFTH: f64 = 0.2;
 /// θ follows e₀ by this much at least.
 const LEAST_SLOPE: f64 = 0.2;
 

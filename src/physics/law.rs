@@ -3,6 +3,10 @@
 use super::{Restitution, check};
 use crate::Error;
 
+/// The power of the impact speed that the loss of viscoelastic spheres goes with: `1 − e ∝ v^(1/5)`, and to second order
+/// `ln e ∝ v^(1/5)`.
+pub const VISCOELASTIC_POWER: f64 = 0.2;
+
 /// How restitution depends on the speed of impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -64,7 +68,7 @@ impl RestitutionLaw {
         match *self {
             Self::Constant(restitution) => restitution,
             Self::Viscoelastic { gamma1, gamma2 } => {
-                let root = libm::pow(speed, 0.2);
+                let root = libm::pow(speed, VISCOELASTIC_POWER);
                 Restitution::from_trusted_loss(root * (gamma1 - gamma2 * root))
             }
             Self::Power {
@@ -92,7 +96,7 @@ fn check_lossy(restitution: Restitution) -> Result<(), Error> {
 fn check_viscoelastic(gamma1: f64, gamma2: f64, speed: f64) -> Result<(), Error> {
     check::positive("gamma1", gamma1)?;
     check::non_negative("gamma2", gamma2)?;
-    let root = libm::pow(speed, 0.2);
+    let root = libm::pow(speed, VISCOELASTIC_POWER);
     let loss = |y: f64| y * (gamma1 - gamma2 * y);
     // The loss is largest at y = γ₁/2γ₂, if the ball ever hits that fast.
     let greatest = loss((0.5 * gamma1 / gamma2).min(root));

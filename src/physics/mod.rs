@@ -70,6 +70,6 @@ pub use flight::{
 };
 pub use impacts::{Impact, Impacts};
 pub use inverse::{Equation, InputErrors, Inversion};
-pub use law::RestitutionLaw;
+pub use law::{RestitutionLaw, VISCOELASTIC_POWER};
 pub use restitution::Restitution;
 pub use uncertainty::{ContactErrors, ParameterErrors};

@@ -1,7 +1,7 @@
 //! The flights that the model of a drop expects, for the lines in its pictures.
 
 use crate::physics::ends::Ends;
-use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule};
+use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule, VISCOELASTIC_POWER};
 use crate::report::Drop;
 
 /// Rounds in which a line is moved onto the flights.
@@ -66,7 +66,7 @@ impl Law {
         let Some(weighty) = &self.weighty else {
             let slower = self.at_speed_m_per_s / speed_m_per_s;
             let own = if self.viscoelastic {
-                self.restitution.powf(slower.powf(-0.2))
+                self.restitution.powf(slower.powf(-VISCOELASTIC_POWER))
             } else {
                 self.restitution * slower.powf(self.exponent)
             };

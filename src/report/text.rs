@@ -146,7 +146,13 @@ fn model(drop: &Drop) -> Option<String> {
     .into_iter()
     .flatten()
     .collect();
-    (!terms.is_empty()).then(|| format!("{}: {}", model_name(&drop.model), terms.join(", ")))
+    let name = model_name(&drop.model);
+    match (terms.is_empty(), drop.model.selected) {
+        (false, _) => Some(format!("{name}: {}", terms.join(", "))),
+        // It has no parameter beyond e.
+        (true, "viscoelastic") => Some(format!("{name}: ln e in proportion to v^(1/5)")),
+        (true, _) => None,
+    }
 }
 
 /// By how much the model is better than constant e, and which others are as likely: `10.2 nats better than constant e; as
@@ -337,6 +343,15 @@ mod tests {
         assert_eq!(contact, "constant e, with the contact time given");
         let both = named("speed", &["contact_time", "drag"]);
         assert_eq!(both, "speed, with the contact time and drag given");
+    }
+
+    #[test]
+    fn a_model_without_a_parameter_of_its_own_is_named_all_the_same() {
+        let mut drop = Drop::empty();
+        assert_eq!(model(&drop), None);
+        drop.model.selected = "viscoelastic";
+        let told = model(&drop).unwrap();
+        assert!(told.starts_with("viscoelastic: ln e"), "{told}");
     }
 
     #[test]

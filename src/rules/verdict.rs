@@ -4,7 +4,9 @@ use super::Rule;
 use super::decide::{Causes, would_decide};
 use crate::Error;
 use crate::fit::Estimate;
-use crate::physics::{Air, DRAG_RELATIVE_STD, FlightLaw, Oscillator, Restitution, Sphere};
+use crate::physics::{
+    Air, DRAG_RELATIVE_STD, FlightLaw, Oscillator, Restitution, Sphere, VISCOELASTIC_POWER,
+};
 use crate::report::rule::{Judged, Outcome};
 use crate::report::{Drop, Model};
 
@@ -141,10 +143,9 @@ impl<'a> Test<'a> {
         // A fitted exponent has its own error out there.
         let by_chance = exponent.map_or(EXPONENT_BEYOND * beyond, |_| 0.0);
         let by_law = exponent.map_or(0.0, |(p, _)| p * ln_speed);
-        // As exp(ln v/5): ln e of viscoelastic spheres goes with the fifth root of the speed.
         let viscoelastic = drop.model.selected == "viscoelastic";
         let factor = if viscoelastic {
-            (0.2 * ln_speed).exp()
+            (VISCOELASTIC_POWER * ln_speed).exp()
         } else {
             1.0
         };

@@ -356,6 +356,7 @@ fn settings(random: &mut SplitMix64) -> Settings {
             Choice::Linear,
             Choice::Drag,
             Choice::Speed,
+            Choice::Viscoelastic,
         ],
     );
     settings

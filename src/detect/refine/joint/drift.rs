@@ -121,12 +121,11 @@ impl Joint {
 
 /// The drift, if it is one: slow impacts match late, and two beginnings say so, of all impacts or of the clear ones.
 fn late(joint: &Joint) -> Option<Late> {
-    let tried = CLEAR
-        .iter()
-        .flat_map(|&clear| SHARES.windows(2).map(move |pair| (clear, pair)));
-    tried
-        .into_iter()
-        .find_map(|(clear, pair)| late_by(joint, clear, pair))
+    let by = |clear| {
+        let mut pairs = SHARES.windows(2);
+        pairs.find_map(|pair| late_by(joint, clear, pair))
+    };
+    CLEAR.into_iter().find_map(by)
 }
 
 /// The same by two beginnings, of the impacts that are so clear.
