@@ -32,7 +32,8 @@
 //! |---|---|
 //! | [`analysis`] | the whole way from samples to drops, from memory or [block by block](analysis::Listener) |
 //! | [`audio`] | files and pipes to samples: WAV, FLAC, MP3, MP4 and others |
-//! | [`detect`], [`sequence`], [`fit`] | its steps: candidate impacts, the chain that is a drop, e from its times |
+//! | [`detect`], [`sequence`], [`timing`], [`fit`] | its steps: candidate impacts, the chain that is a drop, their times, e from these |
+//! | [`signal`] | what listening is made of: octave bands, whitening, correlation, interpolation |
 //! | [`report`] | what was found, as data; text, JSON, CSV and [labels](report::labels) are functions of it |
 //! | [`rules`] | the rebound that a rule book asks for |
 //! | [`physics`], [`solve`] | flight, contact and the paper's equations; the ball from numbers |
@@ -65,9 +66,11 @@ pub mod random;
 pub mod report;
 pub mod rules;
 pub mod sequence;
+pub mod signal;
 pub mod solve;
 pub mod statistics;
 pub mod synth;
+pub mod timing;
 pub mod units;
 
 pub use error::Error;

@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each folder must not name. Arrows: units, statistics, physics, audio ← detect, sequence, fit ← report ← analysis, evaluate, picture ← cli.
-const FORBIDDEN: [(&str, &[&str]); 15] = [
+const FORBIDDEN: [(&str, &[&str]); 17] = [
     (
         "physics",
         &[
@@ -17,21 +17,37 @@ const FORBIDDEN: [(&str, &[&str]); 15] = [
         ],
     ),
     (
+        "signal",
+        &[
+            "physics", "detect", "sequence", "timing", "fit", "audio", "report", "analysis",
+            "synth", "evaluate", "cli",
+        ],
+    ),
+    (
+        "timing",
+        &[
+            "physics", "detect", "sequence", "fit", "audio", "report", "analysis", "synth",
+            "evaluate", "cli",
+        ],
+    ),
+    (
         "detect",
         &[
-            "physics", "sequence", "fit", "audio", "report", "analysis", "synth", "evaluate", "cli",
+            "physics", "sequence", "timing", "fit", "audio", "report", "analysis", "synth",
+            "evaluate", "cli",
         ],
     ),
     (
         "sequence",
         &[
-            "detect", "fit", "audio", "report", "analysis", "synth", "evaluate", "cli",
+            "detect", "timing", "fit", "audio", "report", "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
         "fit",
         &[
-            "detect", "sequence", "audio", "report", "analysis", "synth", "evaluate", "cli",
+            "detect", "timing", "sequence", "audio", "report", "analysis", "synth", "evaluate",
+            "cli",
         ],
     ),
     (
@@ -102,9 +118,9 @@ const FORBIDDEN: [(&str, &[&str]); 15] = [
 ];
 
 /// Folders that must build without a file system, threads or a terminal.
-const CORE: [&str; 12] = [
-    "picture", "physics", "detect", "sequence", "fit", "report", "analysis", "rules", "plot",
-    "solve", "synth", "evaluate",
+const CORE: [&str; 14] = [
+    "picture", "physics", "signal", "detect", "timing", "sequence", "fit", "report", "analysis",
+    "rules", "plot", "solve", "synth", "evaluate",
 ];
 const OUTSIDE: [&str; 6] = [
     "std::fs",

@@ -5,13 +5,13 @@ use super::bounce::{Corrections, bounce, rebound_height_std_m};
 use super::tail::Followed;
 use super::{Settings, Stretch, model, rejected, warnings};
 use crate::Error;
-use crate::detect::refine::Timing;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
 use crate::report::{Drop, Estimates, Impact, Scatter, Status, Warning};
 use crate::sequence::{Chain, Link};
 use crate::statistics::upper_median;
+use crate::timing::Timing;
 
 /// A drop, as far as it can be known before the recording ends.
 #[derive(Debug, Clone)]

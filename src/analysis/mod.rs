@@ -19,11 +19,11 @@ pub use listener::Listener;
 use std::ops::RangeInclusive;
 
 use crate::Error;
-use crate::detect::refine::{Timed, Timing, refine};
 use crate::detect::{self, Candidate};
 use crate::fit::ladder;
 use crate::report::{Analysis, Rejected, SettingsInfo};
 use crate::sequence::{self, Chain, Event, Reason};
+use crate::timing::{Timed, Timing, refine};
 use crate::units::{real, samples_in};
 
 /// What is known beforehand and how to listen.

@@ -5,8 +5,8 @@
 
 use super::Stretch;
 use crate::detect::matched;
-use crate::detect::refine::{Timed, Timing};
 use crate::sequence::{self, Chain, Event};
+use crate::timing::{Timed, Timing};
 
 /// Where flights are shorter than this, in seconds, the sound of one impact reaches into the next.
 const SHORT_FLIGHT_S: f64 = 0.06;

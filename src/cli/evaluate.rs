@@ -11,7 +11,6 @@ use super::{Outcome, limit, output};
 use crate::Error;
 use crate::analysis::{Settings, analyze_clearest};
 use crate::audio;
-use crate::detect::refine::Timing;
 use crate::evaluate::picture;
 use crate::evaluate::reference::Reference;
 use crate::evaluate::rows::{Evaluation, Row, Tier};
@@ -19,6 +18,7 @@ use crate::evaluate::scores::{FileScore, score};
 use crate::evaluate::text::to_text;
 use crate::evaluate::thresholds::Thresholds;
 use crate::fit::ladder::Choice;
+use crate::timing::Timing;
 use crate::units::real;
 
 /// Measure the analyzer on recordings with known truth: error and speed of every way of timing and every model.

@@ -10,9 +10,9 @@ use super::{acceleration, length, mass, time};
 use crate::Error;
 use crate::analysis::{Listener, Settings, analyze_labelled};
 use crate::audio::Stream;
-use crate::detect::refine::Timing;
 use crate::fit::ladder::Choice;
 use crate::report::{self, RecordingInfo, Report};
+use crate::timing::Timing;
 
 /// What is known beforehand and how to listen.
 #[derive(Debug, Clone, Args)]

@@ -5,9 +5,10 @@
 //! sought, taken out whole, and the next best match sought in what is left, until nothing stands out of the noise.
 
 use super::Candidate;
-use super::refine::interpolate::shifted;
-use super::refine::whiten::Whitener;
-use super::voice::{Voice, correlate, dot};
+use super::voice::Voice;
+use crate::signal::correlate::{correlate, dot};
+use crate::signal::interpolate::shifted;
+use crate::signal::whiten::Whitener;
 use crate::units::{real, samples_in};
 
 /// Weakest match, in standard deviations of the noise.

@@ -1,21 +1,18 @@
 //! Where something struck: candidate impacts from samples and a rate. Knows nothing of balls.
 //!
-//! [`quiet`] watches over everything for the little in which something happens. [`filterbank`] splits that into octaves,
-//! [`rise`] measures how surely the energy went up at each moment, [`peaks`] picks the moments. [`refine`] then times
-//! chosen impacts below one sample.
+//! [`quiet`] watches over everything for the little in which something happens. A [filter bank](crate::signal::filterbank) splits that
+//! into octaves, [`rise`] measures how surely the energy went up at each moment, [`peaks`] picks the moments.
 
-pub mod filterbank;
-mod logarithm;
 pub mod matched;
 pub mod peaks;
 pub mod quiet;
-pub mod refine;
 pub mod rise;
 mod rounding;
 mod voice;
 mod windows;
 
 use crate::Error;
+use crate::signal::filterbank::Filterbank;
 use crate::units::{real, samples_in};
 
 /// How candidates are found. Every field has a default that suits all recordings seen so far.
@@ -68,7 +65,7 @@ const MARGIN_S: f64 = 0.25;
 /// Finds candidates at one rate.
 #[derive(Debug, Clone)]
 pub struct Detector {
-    bank: filterbank::Filterbank,
+    bank: Filterbank,
     sample_rate_hz: f64,
     settings: Settings,
 }
@@ -82,7 +79,7 @@ impl Detector {
     pub fn new(sample_rate_hz: f64, settings: &Settings) -> Result<Self, Error> {
         settings.check()?;
         Ok(Self {
-            bank: filterbank::Filterbank::new(sample_rate_hz, settings.hop_s, settings.lowest_hz)?,
+            bank: Filterbank::new(sample_rate_hz, settings.hop_s, settings.lowest_hz)?,
             sample_rate_hz,
             settings: settings.clone(),
         })

@@ -1,9 +1,9 @@
 //! How surely the energy went up at each moment.
 
-use super::filterbank::{Band, Filterbank};
-use super::logarithm::ln_from_one;
 use super::rounding::rounding_density;
 use super::windows::{FALLING_SHARE, narrow, rises};
+use crate::signal::filterbank::{Band, Filterbank};
+use crate::signal::logarithm::ln_from_one;
 use crate::units::real;
 
 /// Shortest window after the moment, in seconds: the ring of one impact lasts longer.

@@ -1,6 +1,6 @@
 //! The noise that a recorder makes by rounding to its own steps.
 
-use super::filterbank::Filterbank;
+use crate::signal::filterbank::Filterbank;
 
 /// The step of a recording of 8 bits; what differs by more (clicks in digital silence) was not rounded to it.
 const COARSEST_STEP: f32 = 1.0 / 128.0;

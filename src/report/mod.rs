@@ -85,7 +85,7 @@ pub struct SettingsInfo {
     /// Where it ended, in seconds.
     pub end_s: Option<f64>,
     /// How impacts were timed.
-    pub timing: crate::detect::refine::Timing,
+    pub timing: crate::timing::Timing,
 }
 
 /// What was heard in a recording.

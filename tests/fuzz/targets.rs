@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use bounce_audio::Error;
 use bounce_audio::analysis::{Listener, Settings};
 use bounce_audio::audio::{self, Stream};
-use bounce_audio::detect::refine::Timing;
 use bounce_audio::fit::ladder::Choice;
 use bounce_audio::random::SplitMix64;
 use bounce_audio::report::labels::{Form, drops, read};
@@ -15,6 +14,7 @@ use bounce_audio::report::{RecordingInfo, Report, SCHEMA_VERSION, csv, json, tex
 use bounce_audio::synth::presets::preset;
 use bounce_audio::synth::render;
 use bounce_audio::synth::scene::Scene;
+use bounce_audio::timing::Timing;
 use bounce_audio::units::{Quantity, real};
 
 use super::choose::one_of;

@@ -3,7 +3,7 @@
 use super::average::solve;
 use super::settle::Normal;
 use super::{Impact, Joint};
-use crate::detect::refine::interpolate::{KERNEL, shifted, slope};
+use crate::signal::interpolate::{KERNEL, shifted, slope};
 use crate::statistics::upper_median;
 use crate::units::{real, samples_in};
 

@@ -1,7 +1,7 @@
 //! A filter after which the noise of this recording is white, by linear prediction.
 
+use super::correlate::dot;
 use super::interpolate::correlated;
-use crate::detect::voice::dot;
 use crate::units::{real, samples_in};
 
 /// Coefficients of the predictor: enough to flatten the slope of a room's noise and the hum below it.

@@ -4,7 +4,7 @@ use super::Joint;
 use super::average::sums;
 use super::settle::Normal;
 use super::template::{MOST_SHARE, Sample};
-use crate::detect::refine::interpolate::slope_gain;
+use crate::signal::interpolate::slope_gain;
 use crate::units::real;
 
 /// Blocks of equal information that a sound is cut into; two parameters are fitted to them.

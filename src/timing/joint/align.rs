@@ -4,8 +4,8 @@ use super::average::smoothed;
 use super::place::best;
 use super::template::Template;
 use super::{BEFORE_S, Impact, Joint, LONGEST_S};
-use crate::detect::refine::interpolate::{KERNEL, shifted};
-use crate::detect::voice::Correlator;
+use crate::signal::correlate::Correlator;
+use crate::signal::interpolate::{KERNEL, shifted};
 use crate::units::{real, samples_in};
 
 /// Impacts are first aligned by this much of their sound at most, in seconds.

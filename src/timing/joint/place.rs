@@ -1,7 +1,7 @@
 //! Where a shape fits best among samples.
 
-use crate::detect::refine::interpolate::{KERNEL, maximum};
-use crate::detect::voice::Correlator;
+use crate::signal::correlate::Correlator;
+use crate::signal::interpolate::{KERNEL, maximum};
 use crate::units::real;
 
 /// A match of less than this share of the best is no rival.

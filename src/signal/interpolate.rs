@@ -47,7 +47,7 @@ fn padded(samples: &[f64], first: isize, length: usize) -> Vec<f64> {
 const BLOCK: usize = 8;
 
 /// `Σ_k weights[k]·samples[i + k]` for every i at which all weights lie within the samples.
-pub(super) fn correlated<const TAPS: usize>(samples: &[f64], weights: &[f64; TAPS]) -> Vec<f64> {
+pub(crate) fn correlated<const TAPS: usize>(samples: &[f64], weights: &[f64; TAPS]) -> Vec<f64> {
     let count = (samples.len() + 1).saturating_sub(TAPS);
     let mut out = Vec::with_capacity(count);
     let blocks = count / BLOCK;
@@ -93,7 +93,7 @@ fn slope_weight(n: usize) -> f64 {
 }
 
 /// The variance of the [`slope`] of white noise of variance 1, away from the ends: the sum of the squares of its weights.
-pub(super) fn slope_gain() -> f64 {
+pub(crate) fn slope_gain() -> f64 {
     let squares = (1..KERNEL).map(|n| slope_weight(n).powi(2));
     2.0 * squares.sum::<f64>()
 }

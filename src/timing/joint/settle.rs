@@ -5,7 +5,7 @@ use super::place::best;
 use super::spread::likenesses;
 use super::template::Sample;
 use super::{Joint, ROUNDS, SEARCHES};
-use crate::detect::refine::interpolate::{KERNEL, shifted};
+use crate::signal::interpolate::{KERNEL, shifted};
 use crate::units::{real, samples_in};
 
 /// Smoothing of the misfit, either way, in seconds.

@@ -23,9 +23,9 @@ mod template;
 #[cfg(test)]
 mod tests;
 
-use super::whiten::Whitener;
 use super::{Timed, fraction};
-use crate::detect::voice::Correlator;
+use crate::signal::correlate::Correlator;
+use crate::signal::whiten::Whitener;
 use crate::statistics::upper_median;
 use crate::units::{real, samples_in};
 use template::Template;

@@ -23,7 +23,7 @@ const SERIES: [f32; 9] = [
 /// ln x for finite x ≥ 1, to an error of 2·10⁻⁷ (of the result where that exceeds 1); exactly 0 for 1.
 ///
 /// Without branches or calls, so that a loop over many values needs a few nanoseconds for each.
-pub(super) fn ln_from_one(x: f32) -> f32 {
+pub(crate) fn ln_from_one(x: f32) -> f32 {
     let bits = x.to_bits();
     let exponent = bits.wrapping_sub(ROOT_HALF_BITS) >> 23;
     let f = f32::from_bits(bits.wrapping_sub(exponent << 23)) - 1.0;

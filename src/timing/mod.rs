@@ -1,14 +1,13 @@
 //! Times below one sample.
 //!
-//! The recording is first [whitened](mod@whiten), so that hum and rumble do not matter and the noise left is white. Then
+//! The recording is first [whitened](crate::signal::whiten), so that hum and rumble do not matter and the noise left is white. Then
 //! each impact is timed by a [constant fraction](mod@fraction) of its own rise, which does not walk with loudness, or all
 //! are timed together (`joint`) by the sound that they have in common, which uses all of it.
 
 pub mod fraction;
-pub mod interpolate;
 mod joint;
-pub mod whiten;
 
+use crate::signal::whiten::Whitener;
 use crate::units::{real, samples_in};
 
 /// How impacts are timed, from fastest to most exact.
@@ -64,7 +63,7 @@ pub fn refine(
         return coarse.to_vec();
     }
     let coarse_s: Vec<f64> = coarse.iter().map(|t| t.time_s).collect();
-    let whitener = whiten::Whitener::learn(samples, sample_rate_hz, &coarse_s);
+    let whitener = Whitener::learn(samples, sample_rate_hz, &coarse_s);
     let together = if timing == Timing::Correlation {
         joint::times(samples, sample_rate_hz, coarse, &whitener)
     } else {
@@ -84,7 +83,7 @@ fn by_fraction(
     samples: &[f32],
     sample_rate_hz: f64,
     time_s: f64,
-    whitener: &whiten::Whitener,
+    whitener: &Whitener,
 ) -> Option<Timed> {
     let window = window(samples, sample_rate_hz, time_s, whitener)?;
     let rise = fraction::time(&window, sample_rate_hz)?;
@@ -98,7 +97,7 @@ fn window(
     samples: &[f32],
     sample_rate_hz: f64,
     time_s: f64,
-    whitener: &whiten::Whitener,
+    whitener: &Whitener,
 ) -> Option<Window> {
     let centre = samples_in(time_s, sample_rate_hz);
     let start = centre.checked_sub(samples_in(BEFORE_S, sample_rate_hz))?;

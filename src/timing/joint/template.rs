@@ -1,7 +1,7 @@
 //! What the impacts of a drop have in common, and how much they differ.
 
 use super::average::{smoothed, sums, weighted_fit, weighted_mean};
-use crate::detect::refine::interpolate::{KERNEL, slope};
+use crate::signal::interpolate::{KERNEL, slope};
 
 /// The head holds this share of the template's energy: the rest tells little of time.
 const HEAD_SHARE: f64 = 0.95;
