@@ -163,6 +163,38 @@ fn bin_of(after_start_s: f64) -> usize {
     crate::units::samples_in((after_start_s / BIN_S).floor().max(0.0), 1.0)
 }
 
+/// Rates of clutter at the events of a scene, each computed when it is first asked for: hypotheses meet at the same
+/// events again and again.
+#[derive(Debug)]
+pub struct Rates<'a> {
+    events: &'a [Event],
+    clutter: &'a Clutter,
+    explained: Explained,
+    ln_per_s: Vec<Option<f64>>,
+}
+
+impl<'a> Rates<'a> {
+    /// The rates at some events among clutter where some of them, indices in order, are explained and so no clutter.
+    #[must_use]
+    pub fn new(events: &'a [Event], clutter: &'a Clutter, explained: &[usize]) -> Self {
+        Self {
+            events,
+            clutter,
+            explained: Explained::new(explained.iter().map(|&i| events[i]).collect()),
+            ln_per_s: vec![None; events.len()],
+        }
+    }
+
+    /// ln of the rate of clutter at least as strong as this event, per second.
+    pub(super) fn ln_per_s(&mut self, event: usize) -> f64 {
+        *self.ln_per_s[event].get_or_insert_with(|| {
+            self.clutter
+                .rate_per_s(&self.events[event], &self.explained)
+                .ln()
+        })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

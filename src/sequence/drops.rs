@@ -177,13 +177,13 @@ fn follow_known(scene: &Scene<'_>, impacts_s: &[(f64, f64)]) -> Option<Chain> {
     let seeds = known.windows(3).filter_map(|w| Some([w[0]?, w[1]?, w[2]?]));
     // The known impacts are no clutter to each other.
     let own: Vec<usize> = known.iter().flatten().copied().collect();
-    let clearer = scene.without(&own);
+    let mut clearer = scene.rates_without(&own);
     let mut chains: Vec<Chain> = Vec::new();
     for seed in seeds {
         // A seed whose events all stand in one chain would only find it again.
         let holds = |chain: &Chain| seed.iter().all(|&i| chain.events().any(|e| e == i));
         if !chains.iter().any(holds) {
-            chains.push(Chain::new(follow(&clearer, seed)));
+            chains.push(Chain::new(follow(scene, &mut clearer, seed)));
         }
     }
     let better = |a: &Chain, b: &Chain| a.evidence.total_cmp(&b.evidence);
@@ -200,7 +200,7 @@ fn sharpen(scene: &Scene<'_>, mut chain: Chain) -> Chain {
             return chain;
         };
         let explained = reasons::explained(scene, &chain);
-        let next = Chain::new(follow(&scene.without(&explained), seed));
+        let next = Chain::new(follow(scene, &mut scene.rates_without(&explained), seed));
         if next.evidence < chain.evidence && next.heard() < chain.heard() {
             break;
         }
@@ -231,6 +231,7 @@ fn chains(scene: &Scene<'_>) -> Vec<Chain> {
     let mut chains: Vec<Chain> = Vec::new();
     // The chains that each event stands in. A seed whose events all stand in one would only find it again.
     let mut known: Vec<Vec<usize>> = vec![Vec::new(); scene.events.len()];
+    let mut rates = scene.rates();
     for seed in seeds(scene) {
         let [first, second, third] = seed.map(|i| &known[i]);
         if first
@@ -239,7 +240,7 @@ fn chains(scene: &Scene<'_>) -> Vec<Chain> {
         {
             continue;
         }
-        let chain = Chain::new(follow(scene, seed));
+        let chain = Chain::new(follow(scene, &mut rates, seed));
         if chain.heard() < FEWEST {
             continue;
         }

@@ -5,6 +5,7 @@
 
 pub mod clutter;
 pub mod drops;
+mod extend;
 pub mod flight;
 pub mod reasons;
 pub mod seeds;

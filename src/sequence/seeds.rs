@@ -22,12 +22,13 @@ type Promise = (f64, [usize; 3]);
 /// impact seems to be there.
 #[must_use]
 pub fn seeds(scene: &Scene<'_>) -> Vec<[usize; 3]> {
+    let mut rates = scene.rates();
     let leaders: Vec<Leader> = leaders(scene.events)
         .into_iter()
         .map(|event| Leader {
             event,
             time_s: scene.events[event].time_s,
-            worth: -scene.ln_rate(event),
+            worth: -rates.ln_per_s(event),
         })
         .collect();
     let mut found: Vec<Promise> = Vec::new();
