@@ -2,6 +2,7 @@
 
 use super::clutter::Clutter;
 use super::reasons::{self, Reason, Rejected};
+use super::reassociate::reassociated;
 use super::seeds::seeds;
 use super::track::{Scene, Step, follow};
 use super::{Event, Settings};
@@ -38,10 +39,10 @@ pub struct Chain {
 }
 
 impl Chain {
-    fn new((steps, evidence): (Vec<Step>, f64)) -> Self {
+    pub(super) fn new(steps: &[Step]) -> Self {
         Self {
-            links: links(&steps),
-            evidence,
+            links: links(steps),
+            evidence: steps.iter().map(|s| s.gain).sum(),
             rejected: Vec::new(),
         }
     }
@@ -178,52 +179,19 @@ fn follow_known(scene: &Scene<'_>, impacts_s: &[(f64, f64)]) -> Option<Chain> {
     // The known impacts are no clutter to each other.
     let own: Vec<usize> = known.iter().flatten().copied().collect();
     let mut clearer = scene.rates_without(&own);
-    let mut chains: Vec<Chain> = Vec::new();
+    let mut chains: Vec<Vec<Step>> = Vec::new();
     for seed in seeds {
         // A seed whose events all stand in one chain would only find it again.
-        let holds = |chain: &Chain| seed.iter().all(|&i| chain.events().any(|e| e == i));
-        if !chains.iter().any(holds) {
-            chains.push(Chain::new(follow(scene, &mut clearer, seed)));
+        let stands_in = |chain: &[Step], i| chain.iter().any(|s| s.event == Some(i));
+        if !chains.iter().any(|c| seed.iter().all(|&i| stands_in(c, i))) {
+            chains.push(follow(scene, &mut clearer, seed));
         }
     }
-    let better = |a: &Chain, b: &Chain| a.evidence.total_cmp(&b.evidence);
-    let best = chains.into_iter().max_by(better)?;
-    Some(sharpen(scene, best))
-}
-
-/// How often a chain is followed anew with what it taught.
-const SHARPENINGS: usize = 8;
-/// Follows a chain anew, with its own impacts and their echoes no longer counted as clutter.
-fn sharpen(scene: &Scene<'_>, mut chain: Chain) -> Chain {
-    for _ in 0..SHARPENINGS {
-        let Some(seed) = best_seed(&chain) else {
-            return chain;
-        };
-        let explained = reasons::explained(scene, &chain);
-        let next = Chain::new(follow(scene, &mut scene.rates_without(&explained), seed));
-        if next.evidence < chain.evidence && next.heard() < chain.heard() {
-            break;
-        }
-        let settled = next.events().eq(chain.events());
-        chain = next;
-        if settled {
-            break;
-        }
-    }
-    chain
-}
-
-/// The three neighbouring impacts, all heard, that earned most.
-fn best_seed(chain: &Chain) -> Option<[usize; 3]> {
-    chain
-        .links
-        .windows(3)
-        .filter_map(|w| {
-            let events = [w[0].event?, w[1].event?, w[2].event?];
-            Some((events, w.iter().map(|l| l.gain).sum::<f64>()))
-        })
-        .max_by(|a, b| a.1.total_cmp(&b.1))
-        .map(|(events, _)| events)
+    let evidence = |steps: &Vec<Step>| steps.iter().map(|s| s.gain).sum::<f64>();
+    let best = chains
+        .into_iter()
+        .max_by(|a, b| evidence(a).total_cmp(&evidence(b)))?;
+    Some(reassociated(scene, best))
 }
 
 /// The chains that the seeds lead to, the most promising seed first.
@@ -240,11 +208,11 @@ fn chains(scene: &Scene<'_>) -> Vec<Chain> {
         {
             continue;
         }
-        let chain = Chain::new(follow(scene, &mut rates, seed));
-        if chain.heard() < FEWEST {
+        let steps = follow(scene, &mut rates, seed);
+        if steps.iter().filter(|s| s.event.is_some()).count() < FEWEST {
             continue;
         }
-        let chain = sharpen(scene, chain);
+        let chain = reassociated(scene, steps);
         for event in chain.events() {
             known[event].push(chains.len());
         }

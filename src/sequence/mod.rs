@@ -8,6 +8,7 @@ pub mod drops;
 mod extend;
 pub mod flight;
 pub mod reasons;
+mod reassociate;
 pub mod seeds;
 pub mod track;
 

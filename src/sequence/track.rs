@@ -89,9 +89,9 @@ pub struct Step {
     pub chance: f64,
 }
 
-/// Extends three impacts both ways and gives the whole chain in order of time, with its evidence in nats.
+/// Extends three impacts both ways and gives the whole chain in order of time.
 #[must_use]
-pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> (Vec<Step>, f64) {
+pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec<Step> {
     let t = seed.map(|i| scene.events[i].time_s);
     let (first, second) = (t[1] - t[0], t[2] - t[1]);
     let mut law = FlightLaw::prior(scene.settings);
@@ -142,14 +142,8 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> (Ve
         ..start
     };
     let backward = Extension::new(scene, rates, Way::Backward).from(start);
-    let chain: Vec<Step> = backward
-        .into_iter()
-        .rev()
-        .chain(middle)
-        .chain(forward)
-        .collect();
-    let evidence = chain.iter().map(|s| s.gain).sum();
-    (chain, evidence)
+    let before = backward.into_iter().rev();
+    before.chain(middle).chain(forward).collect()
 }
 
 /// The flights found forwards sharpen the law before it is used backwards.
