@@ -137,8 +137,15 @@ impl Bounces {
 }
 
 impl Terms {
+    /// Where C and K stand among the fitted parameters, θ being number 0.
+    pub(super) fn places(&self) -> [Option<usize>; 2] {
+        let contact = self.contact.map(|_| 1);
+        let drag = self.drag.map(|_| 1 + usize::from(contact.is_some()));
+        [contact, drag]
+    }
+
     /// How many parameters are fitted beside θ.
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         let terms = [self.contact, self.drag, self.speed];
         terms.iter().filter(|t| t.is_some()).count()
     }

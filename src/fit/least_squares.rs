@@ -60,6 +60,27 @@ pub(super) struct Solution {
 }
 
 impl Solution {
+    /// The solution where one parameter has this value: the others follow by their covariance with it.
+    ///
+    /// # Formula
+    /// ```text
+    /// β_j + V_ij/V_ii·(x − β_i),   V_jk − V_ij·V_ik/V_ii
+    /// ```
+    pub(super) fn fix(&mut self, parameter: usize, value: f64) {
+        let column = self.covariance[parameter];
+        let (off, variance) = (value - self.values[parameter], column[parameter]);
+        if variance <= 0.0 {
+            return;
+        }
+        for j in 0..MOST {
+            self.values[j] += column[j] / variance * off;
+            for k in 0..MOST {
+                self.covariance[j][k] -= column[j] * column[k] / variance;
+            }
+        }
+        self.values[parameter] = value;
+    }
+
     /// Mean and covariance given that no parameter is less than it can be: one after the other by the moments of a
     /// normal distribution that is cut off.
     ///

@@ -156,7 +156,12 @@ pub(super) fn likeliest(
         Some((solution.ln_likelihood, (sizes, solution)))
     };
     let (range, top) = range(at)?;
-    Some(range.hill(top, 0.0, at)?.top.2)
+    let hill = range.hill(top, 0.0, at)?;
+    // Between the places of the grid, or it would jump from one to the next as the trial moves.
+    match at(hill.vertex) {
+        Some((likelihood, found)) if likelihood >= hill.top.1 => Some(found),
+        _ => Some(hill.top.2),
+    }
 }
 
 /// Forty standard deviations halved this often leave a millionth of one.
@@ -205,6 +210,8 @@ struct Grid {
 struct Hill<T> {
     /// Place, value, and what was found there.
     top: (f64, f64, T),
+    /// Where the parabola through the top and its neighbours is highest; the top itself at an end of the grid.
+    vertex: f64,
     lowest: f64,
     highest: f64,
 }
@@ -250,9 +257,22 @@ impl Grid {
         let _ = (0..=start).rev().any(&mut falls);
         let _ = (start + 1..self.count).any(&mut falls);
         let top = top?;
+        let beside = |step: f64| {
+            let is_there = |v: &&(f64, f64)| (v.0 - top.0 - step).abs() < 0.5 * self.step;
+            values.iter().find(is_there).map(|v| v.1)
+        };
+        let vertex = match (beside(-self.step), beside(self.step)) {
+            (Some(left), Some(right)) if left.min(right) > f64::NEG_INFINITY => {
+                let curvature = (left - top.1) + (right - top.1);
+                let off = 0.5 * (left - right) / curvature.min(-f64::MIN_POSITIVE);
+                top.0 + self.step * off.clamp(-0.5, 0.5)
+            }
+            _ => top.0,
+        };
         let inside = values.iter().filter(|v| v.1 >= top.1 - negligible);
         let inside = inside.map(|v| v.0);
         Some(Hill {
+            vertex,
             lowest: inside.clone().fold(f64::INFINITY, f64::min),
             highest: inside.fold(f64::NEG_INFINITY, f64::max),
             top,

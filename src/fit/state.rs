@@ -1,20 +1,19 @@
 //! A trial of times and parameters, settled by rounds of linear fits.
 
-use super::bounces::{Bounces, Known, Law, Terms, Values};
+use super::bounces::{Bounces, Known, Law, MOST, Terms, Values};
 use super::flights::Impact;
 use super::least_squares::{Prior, Solution};
 use super::noise::{Noise, Sizes};
 use super::posterior::likeliest;
 use crate::statistics::upper_median;
 
-/// Rounds in which the model is made linear anew around the times and parameters found.
-const ROUNDS: usize = 5;
+/// The model is made linear anew around the times and parameters found until none of them moves by more than this share
+/// of its own standard error.
+const AT_REST: f64 = 0.05;
+/// A trial that is not at rest after this many rounds has no solution near; five to ten are usual.
+const MOST_ROUNDS: usize = 60;
 /// An impact that was not heard may be off by this share of the flights around it.
 const UNHEARD: f64 = 0.3;
-/// The model is linear enough where nothing moves by more than this: times as shares of the flights, K in s⁻².
-const SETTLED: f64 = 1e-3;
-/// A model that still moves by this much after the last round has no solution near.
-const RUNAWAY: f64 = 0.2;
 /// C is shorter than any interval by this share, K no greater than that of a balloon.
 const LONGEST_CONTACT: f64 = 0.9;
 /// A linear ball on which its weight rests for longer would hardly leave.
@@ -64,17 +63,27 @@ impl<'a> State<'a> {
             time_variances,
             wildness: vec![1.0; impacts.len() - 2],
         };
-        state.values.ln_fast_restitution = state.middle_ratio().ln().min(LEAST_LN_LOSS);
-        state.set_values(centre(terms.contact), centre(terms.drag));
+        state.values = state.possible(Values {
+            contact_s: centre(terms.contact),
+            drag_per_s2: centre(terms.drag),
+            ln_fast_restitution: state.middle_ratio().ln(),
+        });
         state
     }
 
-    fn set_values(&mut self, contact_s: f64, drag_per_s2: f64) {
-        let shortest = self.trial_s.windows(2).map(|w| w[1] - w[0]);
-        let shortest = shortest.fold(f64::INFINITY, f64::min);
-        let longest = self.longest_contact() * shortest.max(0.0);
-        self.values.contact_s = contact_s.clamp(0.0, longest);
-        self.values.drag_per_s2 = drag_per_s2.clamp(0.0, GREATEST_DRAG);
+    /// The nearest values that the parameters can have.
+    fn possible(&self, values: Values) -> Values {
+        Values {
+            contact_s: values.contact_s.clamp(0.0, self.greatest_contact_s()),
+            drag_per_s2: values.drag_per_s2.clamp(0.0, GREATEST_DRAG),
+            ln_fast_restitution: values.ln_fast_restitution.min(LEAST_LN_LOSS),
+        }
+    }
+
+    /// The longest C that fits the shortest interval.
+    fn greatest_contact_s(&self) -> f64 {
+        let intervals = self.trial_s.windows(2).map(|w| w[1] - w[0]);
+        self.longest_contact() * intervals.fold(f64::INFINITY, f64::min).max(0.0)
     }
 
     /// C in shortest intervals.
@@ -119,65 +128,125 @@ impl<'a> State<'a> {
         priors
     }
 
-    /// Finds times and parameters by rounds of linear fits at the likeliest noise.
+    /// Finds times and parameters by rounds of linear fits at the likeliest noise. None if they find no rest, or only where
+    /// a parameter is held back from running away.
     pub(super) fn settle(&mut self) -> Option<()> {
-        let mut moved = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        self.settle_to(AT_REST, MOST_ROUNDS)
+    }
+
+    /// A trial that turns round goes to and fro about a solution: then it moves by half as much, and by twice as much where
+    /// it goes on.
+    fn settle_to(&mut self, rest: f64, rounds: usize) -> Option<()> {
+        let (mut share, mut before): (f64, Vec<f64>) = (1.0, Vec::new());
+        for _ in 0..rounds {
             let bounces = self.bounces()?;
             let noise = self.noise(&bounces);
             let (sizes, solution) = likeliest(&bounces, &noise, &self.priors())?;
-            moved = self.step(&bounces, &noise, sizes, &solution)?;
-            if moved < SETTLED {
-                break;
+            let step = self.step(&bounces, &noise, sizes, solution)?;
+            if step.in_stds.iter().all(|m| m.abs() < rest) {
+                return (!step.held_back).then_some(());
             }
+            let turned: f64 = step.in_stds.iter().zip(&before).map(|(a, b)| a * b).sum();
+            share = if turned < 0.0 {
+                (0.5 * share).max(LEAST_SHARE)
+            } else {
+                (2.0 * share).min(1.0)
+            };
+            self.go(&step, share);
+            before = step.in_stds;
         }
-        (moved < RUNAWAY).then_some(())
+        None
     }
 
-    /// Moves the trial to a solution: the times to where the noise of each is most likely to have come from. Gives the
-    /// largest move as a share of what it may be off.
+    /// The way from the trial to a solution: for the times to where the noise of each is most likely to have come from.
     fn step(
-        &mut self,
+        &self,
         bounces: &Bounces,
         noise: &Noise,
         sizes: Sizes,
-        solution: &Solution,
-    ) -> Option<f64> {
-        let pulls = pulls(bounces, noise, sizes, solution)?;
-        let mut largest: f64 = 0.0;
-        for (k, trial_s) in self.trial_s.iter_mut().enumerate() {
-            let off_s =
-                sizes.timing.powi(2) * self.time_variances[k] * time_pull(bounces, &pulls, k);
-            let next_s = self.impacts[k].time_s - off_s;
-            largest = largest.max((next_s - *trial_s).abs() / self.shorter[k]);
-            *trial_s = next_s;
+        mut solution: Solution,
+    ) -> Option<Step> {
+        let stds: [f64; MOST] = std::array::from_fn(|i| solution.covariance[i][i].sqrt());
+        let held_back = self.hold(&mut solution);
+        let pulls = pulls(bounces, noise, sizes, &solution)?;
+        let mut moves_s = Vec::with_capacity(self.trial_s.len());
+        let mut in_stds = Vec::with_capacity(self.trial_s.len() + MOST);
+        for (k, trial_s) in self.trial_s.iter().enumerate() {
+            let variance = sizes.timing.powi(2) * self.time_variances[k];
+            let solved_s = self.impacts[k].time_s - variance * time_pull(bounces, &pulls, k);
+            moves_s.push(solved_s - trial_s);
+            in_stds.push((solved_s - trial_s) / variance.sqrt());
         }
-        let mut fitted = solution.values.iter().skip(1);
-        let mut next =
-            |known: Option<Known>| known.and_then(|_| fitted.next()).copied().unwrap_or(0.0);
-        let (contact, drag) = (next(self.terms.contact), next(self.terms.drag));
-        let (contact_s, drag_per_s2) = (
-            self.values.contact_s + contact,
-            self.values.drag_per_s2 + drag,
-        );
-        let before = self.values;
-        let fast = solution.values[0] - bounces.middle_loss;
-        self.values.ln_fast_restitution = fast.min(LEAST_LN_LOSS);
-        self.set_values(contact_s, drag_per_s2);
-        let shortest = self.shorter.iter().copied().fold(f64::INFINITY, f64::min);
-        // A value that is held back at its greatest is no solution.
-        let held_back =
-            contact_s > self.longest_contact() * shortest || drag_per_s2 > GREATEST_DRAG;
-        if held_back {
-            return Some(f64::INFINITY);
+        let ln_fast = (solution.values[0] - bounces.middle_loss).min(LEAST_LN_LOSS);
+        let mut moves = [0.0; MOST];
+        moves[0] = ln_fast - self.values.ln_fast_restitution;
+        let [contact, drag] = self.terms.places();
+        for place in [contact, drag].into_iter().flatten() {
+            moves[place] = solution.values[place];
         }
-        Some(
-            largest
-                .max((self.values.contact_s - before.contact_s).abs() / shortest)
-                .max((self.values.drag_per_s2 - before.drag_per_s2).abs())
-                .max((self.values.ln_fast_restitution - before.ln_fast_restitution).abs()),
-        )
+        let parameters = moves.iter().zip(stds).take(1 + self.terms.count());
+        in_stds.extend(parameters.map(|(m, std)| m / std));
+        let moved = |place: Option<usize>| place.map_or(0.0, |p| moves[p]);
+        Some(Step {
+            moves_s,
+            moves: Values {
+                contact_s: moved(contact),
+                drag_per_s2: moved(drag),
+                ln_fast_restitution: moves[0],
+            },
+            in_stds,
+            held_back,
+        })
     }
+
+    /// Holds C and K of a solution within what they can be; gives whether one would be greater.
+    fn hold(&self, solution: &mut Solution) -> bool {
+        let [contact, drag] = self.terms.places();
+        let bounds = [
+            (contact, self.values.contact_s, self.greatest_contact_s()),
+            (drag, self.values.drag_per_s2, GREATEST_DRAG),
+        ];
+        let mut held_back = false;
+        // Where the second is held the first may have to be: it follows.
+        for (place, now, greatest) in [bounds[0], bounds[1], bounds[0]] {
+            let Some(place) = place else { continue };
+            let wanted = now + solution.values[place];
+            if !(0.0..=greatest).contains(&wanted) {
+                held_back |= wanted > greatest;
+                solution.fix(place, wanted.clamp(0.0, greatest) - now);
+            }
+        }
+        held_back
+    }
+
+    /// Goes a share of the way.
+    fn go(&mut self, step: &Step, share: f64) {
+        for (trial_s, move_s) in self.trial_s.iter_mut().zip(&step.moves_s) {
+            *trial_s += share * move_s;
+        }
+        let (now, moves) = (self.values, step.moves);
+        self.values = self.possible(Values {
+            contact_s: now.contact_s + share * moves.contact_s,
+            drag_per_s2: now.drag_per_s2 + share * moves.drag_per_s2,
+            ln_fast_restitution: now.ln_fast_restitution + share * moves.ln_fast_restitution,
+        });
+    }
+}
+
+/// A trial moves by at least this share of the way.
+const LEAST_SHARE: f64 = 0.125;
+
+/// The way from a trial to the solution around it.
+#[derive(Debug)]
+struct Step {
+    /// Of the times, in seconds.
+    moves_s: Vec<f64>,
+    /// Of the parameters.
+    moves: Values,
+    /// The moves of all times and parameters, each in its own standard errors.
+    in_stds: Vec<f64>,
+    /// Whether a parameter would be greater than it can be.
+    held_back: bool,
 }
 
 /// Times are not taken to be better than this, in seconds: a hundredth of a sample at 192 kHz.
@@ -213,4 +282,97 @@ pub(super) fn time_pull(bounces: &Bounces, pulls: &[f64], time: usize) -> f64 {
             Some(bounces.slopes.get(bounce)?[side] * pulls[bounce])
         })
         .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::ladder::{Choice, Inputs, climb};
+    use crate::fit::posterior::Posterior;
+    use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
+    use crate::random::SplitMix64;
+
+    /// Touches of a linear ball with its weight, each off by a random error of this size, which is what they state.
+    fn touches(e: f64, contact_s: f64, count: usize, std_s: f64) -> Vec<Impact> {
+        let ball = Oscillator::from_contact(Restitution::new(e).unwrap(), contact_s).unwrap();
+        let contact = LinearContact::new(ball, 9.81, ReleaseRule::ZeroDisplacement).unwrap();
+        let mut rng = SplitMix64::new(3);
+        let (mut time_s, mut speed) = (0.5, 2.0);
+        let mut touches = Vec::new();
+        for _ in 0..count {
+            touches.push(Impact {
+                time_s: time_s + std_s * rng.normal(),
+                std_s,
+                heard: true,
+            });
+            let Rebound::Leaves(leaving) = contact.rebound(speed).unwrap() else {
+                panic!("it leaves");
+            };
+            speed *= leaving.restitution.value();
+            time_s += leaving.contact_time_s + 2.0 * speed / 9.81;
+        }
+        touches
+    }
+
+    #[test]
+    fn a_linear_ball_is_told_from_a_contact_by_exact_times() {
+        for std_s in [1e-6, 1e-7] {
+            let touches = touches(0.93, 80e-6, 65, std_s);
+            let climbed = climb(&touches, &Inputs::default(), Choice::Auto).unwrap();
+            let gain = |name: &str| {
+                let of = |c: &&crate::fit::ladder::Candidate| c.model == name;
+                climbed.candidates.iter().find(of).unwrap().gain_nats
+            };
+            assert!(
+                gain("linear") >= gain("contact"),
+                "{:?}",
+                climbed.candidates
+            );
+            let ln_e = climbed.fit.ln_restitution.value + climbed.fit.ln_fast_gain;
+            let off = ln_e - 0.93_f64.ln();
+            let std = climbed.fit.ln_restitution.std.unwrap();
+            assert!(off.abs() < 2.0 * std, "{off:e} of {std:e}");
+        }
+    }
+
+    #[test]
+    fn twice_the_rounds_and_a_tenth_of_the_move_change_no_evidence() {
+        let known = |value, std| Some(Known { value, std });
+        let (contact, drag) = (known(2e-3, 6e-3), known(1.0, 2.0));
+        let terms = |contact, drag, law| Terms {
+            contact,
+            drag,
+            speed: None,
+            law,
+        };
+        let mut compared = 0;
+        for (e, contact_s, count, std_s) in [
+            (0.93, 80e-6, 65, 1e-6),
+            (0.9, 1e-3, 40, 1e-6),
+            (0.9, 1e-3, 40, 1e-4),
+            (0.8, 3e-3, 18, 1e-5),
+        ] {
+            let touches = touches(e, contact_s, count, std_s);
+            for terms in [
+                terms(contact, drag, Law::Alike),
+                terms(contact, None, Law::Linear),
+                terms(None, drag, Law::Viscoelastic),
+            ] {
+                let evidence = |rest: f64, rounds: usize| {
+                    let mut state = State::new(&touches, &terms);
+                    state.settle_to(rest, rounds)?;
+                    let bounces = state.bounces()?;
+                    let noise = state.noise(&bounces);
+                    let posterior = Posterior::over_noise(&bounces, &noise, &state.priors())?;
+                    Some(posterior.ln_evidence)
+                };
+                let usual = evidence(AT_REST, MOST_ROUNDS);
+                let longer = evidence(0.1 * AT_REST, 2 * MOST_ROUNDS);
+                let moved = usual.zip(longer).map(|(a, b)| (a - b).abs());
+                assert!(moved.is_some_and(|m| m < 0.1), "{usual:?} {longer:?}");
+                compared += 1;
+            }
+        }
+        assert_eq!(compared, 12);
+    }
 }
