@@ -44,7 +44,7 @@ impl Measured {
 /// Times the impacts of a chain and fits them.
 pub(super) fn measure(
     stretch: &Stretch<'_>,
-    followed: &Followed,
+    followed: &Followed<'_>,
     channel: usize,
     settings: &Settings,
 ) -> Result<Measured, Error> {
@@ -146,11 +146,14 @@ pub(super) fn by_height(
 }
 
 /// The heard impacts timed below a sample; those inferred stay where their neighbours put them.
-fn times(stretch: &Stretch<'_>, followed: &Followed, settings: &Settings) -> Vec<Timed> {
+fn times(stretch: &Stretch<'_>, followed: &Followed<'_>, settings: &Settings) -> Vec<Timed> {
     let chain = &followed.chain;
     let known = followed.timed.as_ref();
     let known = known.filter(|_| settings.timing == Timing::Correlation);
-    let refined = known.map_or_else(|| stretch.timed(chain, settings.timing), Vec::clone);
+    let refined = known.map_or_else(
+        || stretch.timed(chain, &followed.sound, settings.timing).times,
+        Vec::clone,
+    );
     let mut refined = refined.into_iter();
     let timed = chain
         .links

@@ -23,7 +23,8 @@ use crate::detect::{self, Candidate};
 use crate::fit::ladder;
 use crate::report::{Analysis, Rejected, SettingsInfo};
 use crate::sequence::{self, Chain, Event, Reason};
-use crate::timing::{Timed, Timing, refine};
+use crate::signal::whiten::Whitened;
+use crate::timing::{Refined, Timed, Timing, refine};
 use crate::units::{real, samples_in};
 
 /// What is known beforehand and how to listen.
@@ -153,15 +154,22 @@ impl<'a> Stretch<'a> {
         candidates.iter().map(event).collect()
     }
 
+    /// The sound that a chain is timed in.
+    fn whitened(&self, chain: &Chain) -> Whitened<'a> {
+        let (first_s, last_s) = chain.span_s();
+        let span_s = (first_s - self.start_s, last_s - self.start_s);
+        Whitened::around(self.samples, self.sample_rate_hz, span_s)
+    }
+
     /// The heard impacts of a chain, in seconds of the stretch.
-    fn timed(&self, chain: &Chain, timing: Timing) -> Vec<Timed> {
+    fn timed(&self, chain: &Chain, sound: &Whitened<'_>, timing: Timing) -> Refined {
         let heard = chain.links.iter().filter(|l| l.event.is_some());
         let coarse = heard.map(|l| Timed {
             time_s: l.time_s - self.start_s,
             std_s: l.jitter_s.max(GRID_ERROR * self.hop_s),
         });
         let coarse: Vec<Timed> = coarse.collect();
-        refine(self.samples, self.sample_rate_hz, &coarse, timing)
+        refine(sound, &coarse, timing)
     }
 
     /// The samples between two times of the recording, as far as they are in the stretch.

@@ -70,11 +70,11 @@ pub(super) fn hear(
     let mut all = events.clone();
     let new = found.drops.into_iter();
     let new = new.filter(|chain| !edge.waits(chain) && !is_told(chain, told_s));
-    let mut followed: Vec<Followed> = new
+    let mut followed: Vec<Followed<'_>> = new
         .map(|chain| tail::follow(&stretch, chain, &mut all, &settings.sequence))
         .collect();
     followed.sort_by(|a, b| b.chain.evidence.total_cmp(&a.chain.evidence));
-    let mut kept: Vec<Followed> = Vec::new();
+    let mut kept: Vec<Followed<'_>> = Vec::new();
     for new in followed {
         if !kept.iter().any(|k| is_echo_of(&new.chain, &k.chain)) {
             kept.push(new);

@@ -6,7 +6,8 @@
 use super::Stretch;
 use crate::detect::matched;
 use crate::sequence::{self, Chain, Event};
-use crate::timing::{Timed, Timing};
+use crate::signal::whiten::Whitened;
+use crate::timing::{Refined, Timed, Timing};
 
 /// Where flights are shorter than this, in seconds, the sound of one impact reaches into the next.
 const SHORT_FLIGHT_S: f64 = 0.06;
@@ -23,27 +24,36 @@ const SAME_CHAIN_S: f64 = 3e-3;
 
 /// A chain after its end was sought again.
 #[derive(Debug)]
-pub(super) struct Followed {
+pub(super) struct Followed<'a> {
     pub chain: Chain,
+    /// The sound that it is timed in, whitened by the noise around the chain as it was first.
+    pub sound: Whitened<'a>,
     /// Its heard impacts by correlation, in seconds of the stretch: the end was followed from there, and it is the same
     /// chain as before. None where it grew, or there was no end to follow.
     pub timed: Option<Vec<Timed>>,
 }
 
 /// The chain with its end followed by the sound of its impacts, if that finds more; new events are added to `events`.
-pub(super) fn follow(
-    stretch: &Stretch<'_>,
+pub(super) fn follow<'a>(
+    stretch: &Stretch<'a>,
     chain: Chain,
     events: &mut Vec<Event>,
     settings: &sequence::Settings,
-) -> Followed {
+) -> Followed<'a> {
+    let sound = stretch.whitened(&chain);
     let Some((first, region_s)) = region(&chain, stretch.end_s()) else {
-        return Followed { chain, timed: None };
+        return Followed {
+            chain,
+            sound,
+            timed: None,
+        };
     };
-    let timed = stretch.timed(&chain, Timing::Correlation);
-    let onsets: Vec<f64> = timed.iter().map(|t| t.time_s).collect();
+    let Refined { times, template } = stretch.timed(&chain, &sound, Timing::Correlation);
+    let onsets: Vec<f64> = times.iter().map(|t| t.time_s).collect();
     let inside_s = (region_s.0 - stretch.start_s, region_s.1 - stretch.start_s);
-    let found = matched::candidates(stretch.samples, stretch.sample_rate_hz, &onsets, inside_s);
+    let flights = onsets.windows(2).map(|w| w[1] - w[0]);
+    let shortest_s = flights.fold(f64::INFINITY, f64::min);
+    let found = template.and_then(|t| matched::candidates(&sound, &t, shortest_s, inside_s));
     let longer = found.and_then(|found| {
         let late = stretch.events(&found);
         let end = HEARD_OFF_S.iter().find_map(|&off_s| {
@@ -52,12 +62,14 @@ pub(super) fn follow(
         })?;
         joined(&chain, first, &end, late, events)
     });
-    match longer {
-        Some(chain) => Followed { chain, timed: None },
-        None => Followed {
-            chain,
-            timed: Some(timed),
-        },
+    let (chain, timed) = match longer {
+        Some(chain) => (chain, None),
+        None => (chain, Some(times)),
+    };
+    Followed {
+        chain,
+        sound,
+        timed,
     }
 }
 

@@ -5,10 +5,10 @@
 
 pub mod matched;
 pub mod peaks;
+mod pursuit;
 pub mod quiet;
 pub mod rise;
 mod rounding;
-mod voice;
 mod windows;
 
 use crate::Error;

@@ -2,6 +2,9 @@
 
 pub mod correlate;
 pub mod filterbank;
+pub(crate) mod fraction;
 pub mod interpolate;
 pub(crate) mod logarithm;
+pub(crate) mod smooth;
+pub mod template;
 pub mod whiten;

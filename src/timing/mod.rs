@@ -1,13 +1,14 @@
 //! Times below one sample.
 //!
 //! The recording is first [whitened](crate::signal::whiten), so that hum and rumble do not matter and the noise left is white. Then
-//! each impact is timed by a [constant fraction](mod@fraction) of its own rise, which does not walk with loudness, or all
+//! each impact is timed by a constant fraction of its own rise, which does not walk with loudness, or all
 //! are timed together (`joint`) by the sound that they have in common, which uses all of it.
 
-pub mod fraction;
 mod joint;
 
-use crate::signal::whiten::Whitener;
+use crate::signal::fraction;
+use crate::signal::template::Template;
+use crate::signal::whiten::Whitened;
 use crate::units::{real, samples_in};
 
 /// How impacts are timed, from fastest to most exact.
@@ -37,75 +38,55 @@ pub struct Timed {
 const BEFORE_S: f64 = 3e-3;
 const AFTER_S: f64 = 5e-3;
 
-/// The whitened sound around one impact.
+/// The times of the impacts of a drop, and the sound that they have in common.
 #[derive(Debug, Clone)]
-pub struct Window {
-    /// Whitened samples, noise having unit variance.
-    pub samples: Vec<f64>,
-    /// Index in the recording of the first of them.
-    pub start: usize,
-    /// Index in the window nearest to the coarse time.
-    pub coarse: usize,
+pub struct Refined {
+    /// In the order of the coarse times.
+    pub times: Vec<Timed>,
+    /// What all were timed by; none where each was timed by itself.
+    pub template: Option<Template>,
 }
 
-/// Times the impacts of one drop, given coarse times in ascending order and how far off they may be.
+/// Times the impacts of one drop in its whitened sound, given coarse times in ascending order and how far off they may be.
 ///
-/// The result is in the same order. Where a method fails on an impact (its window is cut by the end of the recording,
-/// or nothing rises in it) the coarse time stays, with its error.
+/// Where a method fails on an impact (its window is cut by the end of the recording, or nothing rises in it) the coarse time
+/// stays, with its error.
 #[must_use]
-pub fn refine(
-    samples: &[f32],
-    sample_rate_hz: f64,
-    coarse: &[Timed],
-    timing: Timing,
-) -> Vec<Timed> {
-    if timing == Timing::Envelope || coarse.is_empty() {
-        return coarse.to_vec();
-    }
-    let coarse_s: Vec<f64> = coarse.iter().map(|t| t.time_s).collect();
-    let whitener = Whitener::learn(samples, sample_rate_hz, &coarse_s);
-    let together = if timing == Timing::Correlation {
-        joint::times(samples, sample_rate_hz, coarse, &whitener)
-    } else {
-        None
+pub fn refine(sound: &Whitened<'_>, coarse: &[Timed], timing: Timing) -> Refined {
+    let together = match timing {
+        Timing::Correlation => joint::times(sound, coarse),
+        Timing::Envelope | Timing::Fraction => None,
     };
+    if let Some((times, template)) = together {
+        return Refined {
+            times,
+            template: Some(template),
+        };
+    }
     // One drop is timed in one way: what its impacts have in common then cancels.
-    together.unwrap_or_else(|| {
-        let each = coarse.iter().map(|coarse| {
-            by_fraction(samples, sample_rate_hz, coarse.time_s, &whitener).unwrap_or(*coarse)
-        });
-        each.collect()
-    })
+    let times = match timing {
+        Timing::Envelope => coarse.to_vec(),
+        Timing::Fraction | Timing::Correlation => {
+            let each = coarse.iter();
+            each.map(|coarse| by_fraction(sound, coarse.time_s).unwrap_or(*coarse))
+                .collect()
+        }
+    };
+    Refined {
+        times,
+        template: None,
+    }
 }
 
 /// The time of one impact by its own rise.
-fn by_fraction(
-    samples: &[f32],
-    sample_rate_hz: f64,
-    time_s: f64,
-    whitener: &Whitener,
-) -> Option<Timed> {
-    let window = window(samples, sample_rate_hz, time_s, whitener)?;
-    let rise = fraction::time(&window, sample_rate_hz)?;
+fn by_fraction(sound: &Whitened<'_>, time_s: f64) -> Option<Timed> {
+    let rate = sound.sample_rate_hz();
+    let centre = samples_in(time_s, rate);
+    let start = centre.checked_sub(samples_in(BEFORE_S, rate))?;
+    let window = sound.between(start, centre + samples_in(AFTER_S, rate))?;
+    let rise = fraction::time(&window, centre - start, rate)?;
     Some(Timed {
-        time_s: (real(window.start) + rise.position) / sample_rate_hz,
-        std_s: rise.std / sample_rate_hz,
-    })
-}
-
-fn window(
-    samples: &[f32],
-    sample_rate_hz: f64,
-    time_s: f64,
-    whitener: &Whitener,
-) -> Option<Window> {
-    let centre = samples_in(time_s, sample_rate_hz);
-    let start = centre.checked_sub(samples_in(BEFORE_S, sample_rate_hz))?;
-    let end = centre + samples_in(AFTER_S, sample_rate_hz);
-    let whitened = whitener.apply(samples, start, end)?;
-    Some(Window {
-        samples: whitened,
-        start,
-        coarse: centre - start,
+        time_s: (real(start) + rise.position) / rate,
+        std_s: rise.std / rate,
     })
 }

@@ -1,17 +1,15 @@
 //! The first alignment: from the loudest impact along the drop, each impact matched with those next to it.
 
-use super::average::smoothed;
 use super::place::best;
-use super::template::Template;
 use super::{BEFORE_S, Impact, Joint, LONGEST_S};
 use crate::signal::correlate::Correlator;
 use crate::signal::interpolate::{KERNEL, shifted};
+use crate::signal::template::Template;
+use crate::signal::template::aligned::{Aligned, SHORTEST_S, mean};
 use crate::units::{real, samples_in};
 
 /// Impacts are first aligned by this much of their sound at most, in seconds.
 const FIRST_S: f64 = 12e-3;
-/// The template is at least this long, in seconds.
-const SHORTEST_S: f64 = 4e-3;
 /// Neighbours whose mean an impact is matched with.
 const NEIGHBOURS: usize = 3;
 /// The detector's times are off by as much as it says, and at least by this share of the sound's period (one standard
@@ -21,8 +19,6 @@ const JITTER_S: (f64, f64) = (0.5e-3, 1.5e-3);
 /// Nor is an impact off by more than this share of a flight (one standard deviation): it was found where the flights
 /// before it want it.
 const FLIGHT_SHARE: f64 = 0.05;
-/// Energy is judged over this time either way, in seconds.
-const ENERGY_S: f64 = 4e-3;
 
 /// The impacts aligned, and the template that they give; `coarse` are the detector's times and their standard deviations in
 /// samples.
@@ -57,7 +53,11 @@ pub(super) fn start(sound: Vec<f64>, rate: f64, coarse: &[(f64, f64)]) -> Option
     let mut aligned = vec![loudest];
     for i in (loudest + 1..coarse.len()).chain((0..loudest).rev()) {
         let near = nearest(&aligned, i);
-        let shape = mean(&impacts, &near, |p| cut(p, first));
+        let heads: Vec<Aligned> = near
+            .iter()
+            .map(|&j| impacts[j].aligned(|p| cut(p, first)))
+            .collect();
+        let shape = mean(&heads);
         let power: f64 = near.iter().map(|&j| impacts[j].amplitude.powi(2)).sum();
         let noise = vec![1.0 / power; shape.len()];
         let head = Template::new(shape, noise, before);
@@ -154,23 +154,6 @@ fn nearest(aligned: &[usize], i: usize) -> Vec<usize> {
     near
 }
 
-/// Mean sound of some impacts for an amplitude of 1, each by its size.
-fn mean(impacts: &[Impact], of: &[usize], cut: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-    let mut sum: Vec<f64> = Vec::new();
-    let mut power = 0.0;
-    for &i in of {
-        let impact = &impacts[i];
-        let sound = cut(impact.position);
-        sum.resize(sound.len(), 0.0);
-        for (s, x) in sum.iter_mut().zip(sound) {
-            *s += impact.amplitude * x;
-        }
-        power += impact.amplitude * impact.amplitude;
-    }
-    sum.iter_mut().for_each(|s| *s /= power);
-    sum
-}
-
 /// Position and amplitude of an impact by the template's head.
 fn matched(
     correlator: &mut Correlator,
@@ -194,7 +177,7 @@ fn matched(
     Some((begin + fit.position + real(template.before), fit.amplitude))
 }
 
-/// The mean of the impacts that sound alone for long enough, as far as it stands out of the noise.
+/// The template of the impacts that sound alone for long enough.
 fn long_template(
     impacts: &[Impact],
     flights: &[f64],
@@ -203,37 +186,17 @@ fn long_template(
     rate: f64,
     cut: impl Fn(f64, usize) -> Vec<f64>,
 ) -> Option<Template> {
-    let alone = |length: usize| -> Vec<usize> {
-        let is_alone = |&i: &usize| flights.get(i).is_none_or(|&f| f > real(length + before));
-        (0..impacts.len()).filter(is_alone).collect()
+    let alone = |length: usize| -> Vec<Aligned> {
+        let each = impacts.iter().enumerate();
+        let alone =
+            each.filter(|&(i, _)| flights.get(i).is_none_or(|&f| f > real(length + before)));
+        alone
+            .map(|(_, impact)| impact.aligned(|p| cut(p, length)))
+            .collect()
     };
-    let mut length = longest;
-    let mut of = alone(length);
+    let mut of = alone(longest);
     if of.len() < 2 {
-        length = first;
-        of = alone(length);
+        of = alone(first);
     }
-    let mut shape = mean(impacts, &of, |p| cut(p, length));
-    let reach = samples_in(ENERGY_S, rate);
-    let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
-    let power: f64 = of.iter().map(|&i| impacts[i].amplitude.powi(2)).sum();
-    let mut left = vec![0.0; shape.len()];
-    for &i in &of {
-        let amplitude = impacts[i].amplitude;
-        let sound = cut(impacts[i].position, length);
-        for ((l, x), s) in left.iter_mut().zip(&sound).zip(&shape) {
-            *l += (x - amplitude * s).powi(2) / real(of.len() - 1);
-        }
-    }
-    // Were it noise, the mean's power would be what single impacts leave, over all their power. A mean of n squares
-    // scatters by √(2/n); four times that is a sound.
-    let loud = 1.0 + 4.0 * (1.0 / real(reach)).sqrt();
-    let noise = smoothed(&left, reach);
-    let last = smoothed(&squares, reach)
-        .iter()
-        .zip(&noise)
-        .rposition(|(e, n)| e * power > loud * n)?;
-    shape.truncate((last + reach).max(before + samples_in(SHORTEST_S, rate)));
-    let noise = noise[..shape.len()].iter().map(|n| n / power).collect();
-    Some(Template::new(shape, noise, before))
+    Template::of_aligned(&of, before, rate)
 }

@@ -1,9 +1,10 @@
 //! Slow impacts last longer than fast ones, and their sound with them; its beginning does not.
 
-use super::average::solve;
 use super::settle::Normal;
 use super::{Impact, Joint};
 use crate::signal::interpolate::{KERNEL, shifted, slope};
+use crate::signal::template::aligned::{Aligned, mean};
+use crate::signal::template::average::solve;
 use crate::statistics::upper_median;
 use crate::units::{real, samples_in};
 
@@ -293,17 +294,12 @@ impl Beginnings {
         let noise = vec![1.0; self.length];
         let mut stds = vec![f64::INFINITY; self.sounds.len()];
         for _ in 0..ROUNDS {
-            let cuts: Vec<Vec<f64>> = self
-                .sounds
-                .iter()
-                .zip(&self.positions)
-                .map(|(s, p)| shifted(s, p - real(self.lead), self.length + KERNEL))
-                .collect();
-            let shape = self.mean(&cuts);
+            let cuts = self.cuts();
+            let shape = mean(&cuts);
             let slopes = slope(&shape);
             let mut moves = Vec::with_capacity(cuts.len());
             for (i, cut) in cuts.iter().enumerate() {
-                let normal = Normal::of(cut, &noise, &shape, &slopes);
+                let normal = Normal::of(&cut.sound, &noise, &shape, &slopes);
                 let (amplitude, moved, std) = normal.solve(self.amplitudes[i]);
                 self.amplitudes[i] = amplitude.max(0.3 * self.amplitudes[i]);
                 let is_clear = normal.clearness(amplitude) >= self.clear;
@@ -328,14 +324,15 @@ impl Beginnings {
         places.zip(stds).map(clear).collect()
     }
 
-    fn mean(&self, cuts: &[Vec<f64>]) -> Vec<f64> {
-        let mut shape = vec![0.0; self.length + KERNEL];
-        let power: f64 = self.amplitudes.iter().map(|a| a * a).sum();
-        for (cut, a) in cuts.iter().zip(&self.amplitudes) {
-            for (s, x) in shape.iter_mut().zip(cut) {
-                *s += a * x / power;
-            }
-        }
-        shape
+    /// The beginnings where they stand.
+    fn cuts(&self) -> Vec<Aligned> {
+        let places = self.sounds.iter().zip(&self.positions);
+        let cuts = places
+            .zip(&self.amplitudes)
+            .map(|((s, p), &amplitude)| Aligned {
+                amplitude,
+                sound: shifted(s, p - real(self.lead), self.length + KERNEL),
+            });
+        cuts.collect()
     }
 }

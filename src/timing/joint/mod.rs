@@ -14,21 +14,20 @@
 //! with `u = (v/v₁)^(−1/5)` (Hertz) are used in that case alone.
 
 mod align;
-mod average;
 mod drift;
 mod place;
 mod settle;
 mod spread;
-mod template;
 #[cfg(test)]
 mod tests;
 
-use super::{Timed, fraction};
+use super::Timed;
 use crate::signal::correlate::Correlator;
-use crate::signal::whiten::Whitener;
+use crate::signal::template::Template;
+use crate::signal::template::aligned::Aligned;
+use crate::signal::whiten::Whitened;
 use crate::statistics::upper_median;
 use crate::units::{real, samples_in};
-use template::Template;
 
 /// Windows begin this long before the onset, in seconds.
 const BEFORE_S: f64 = 1e-3;
@@ -63,6 +62,14 @@ struct Impact {
 }
 
 impl Impact {
+    /// Its sound where it stands, as `cut` cuts it at a position.
+    fn aligned(&self, cut: impl Fn(f64) -> Vec<f64>) -> Aligned {
+        Aligned {
+            amplitude: self.amplitude,
+            sound: cut(self.position),
+        }
+    }
+
     /// How far from its coarse time it is sought, in samples.
     fn reach(&self) -> usize {
         samples_in(settle::PRIOR_REACH * self.jitter, 1.0).max(2)
@@ -81,15 +88,11 @@ struct Joint {
 
 /// Times of the impacts from coarse times in ascending order; an impact that does not resemble the others keeps the
 /// detector's. None if there are fewer than three.
-pub(super) fn times(
-    samples: &[f32],
-    rate: f64,
-    coarse: &[Timed],
-    whitener: &Whitener,
-) -> Option<Vec<Timed>> {
-    let (start, mut joint) = started(samples, rate, coarse, whitener)?;
+pub(super) fn times(sound: &Whitened<'_>, coarse: &[Timed]) -> Option<(Vec<Timed>, Template)> {
+    let rate = sound.sample_rate_hz();
+    let (start, mut joint) = started(sound, coarse)?;
     let late = drift::follow(&mut joint);
-    let onset = joint.onset();
+    let onset = joint.template.onset(rate);
     let in_recording = |position: f64| (real(start) + position + onset) / rate;
     let stds = spread::standard_errors(&joint);
     let usual = joint.usual_move();
@@ -108,36 +111,28 @@ pub(super) fn times(
             std_s: std / rate,
         }
     });
-    Some(timed.collect())
+    Some((timed.collect(), joint.template))
 }
 
 /// The impacts in their first alignment, and the sample that their stretch begins at.
-fn started(
-    samples: &[f32],
-    rate: f64,
-    coarse: &[Timed],
-    whitener: &Whitener,
-) -> Option<(usize, Joint)> {
+fn started(sound: &Whitened<'_>, coarse: &[Timed]) -> Option<(usize, Joint)> {
     if coarse.len() < FEWEST {
         return None;
     }
-    let (start, sound) = stretch(samples, rate, coarse, whitener)?;
+    let rate = sound.sample_rate_hz();
+    let (start, sound) = stretch(sound, coarse)?;
     let in_samples = |t: &Timed| (t.time_s * rate - real(start), t.std_s * rate);
     let coarse: Vec<(f64, f64)> = coarse.iter().map(in_samples).collect();
     Some((start, align::start(sound, rate, &coarse)?))
 }
 
 /// The whitened sound from before the first impact to after the last, and the sample that it begins at.
-fn stretch(
-    samples: &[f32],
-    rate: f64,
-    coarse: &[Timed],
-    whitener: &Whitener,
-) -> Option<(usize, Vec<f64>)> {
+fn stretch(sound: &Whitened<'_>, coarse: &[Timed]) -> Option<(usize, Vec<f64>)> {
+    let (rate, range) = (sound.sample_rate_hz(), sound.range());
     let (first_s, last_s) = (coarse.first()?.time_s, coarse.last()?.time_s);
-    let start = samples_in(first_s - LEAD_S, rate).max(whitener.past());
-    let end = samples_in(last_s + LONGEST_S, rate).min(samples.len());
-    Some((start, whitener.apply(samples, start, end)?))
+    let start = samples_in(first_s - LEAD_S, rate).max(range.start);
+    let end = samples_in(last_s + LONGEST_S, rate).min(range.end);
+    Some((start, sound.between(start, end)?))
 }
 
 impl Joint {
@@ -145,16 +140,5 @@ impl Joint {
     fn usual_move(&self) -> f64 {
         let moves = self.impacts.iter().map(|i| i.position - i.coarse);
         upper_median(moves).unwrap_or(0.0)
-    }
-
-    /// Where the template's sound begins, in samples after its nominal onset: the constant fraction of its rise.
-    fn onset(&self) -> f64 {
-        let window = super::Window {
-            samples: self.template.mean().to_vec(),
-            start: 0,
-            coarse: self.template.before,
-        };
-        let rise = fraction::time(&window, self.rate);
-        rise.map_or(0.0, |r| r.position - real(self.template.before))
     }
 }

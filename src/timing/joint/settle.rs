@@ -1,11 +1,11 @@
 //! Times and template in turn.
 
-use super::average::smoothed;
 use super::place::best;
 use super::spread::likenesses;
-use super::template::Sample;
 use super::{Joint, ROUNDS, SEARCHES};
 use crate::signal::interpolate::{KERNEL, shifted};
+use crate::signal::smooth::smoothed;
+use crate::signal::template::Sample;
 use crate::units::{real, samples_in};
 
 /// Smoothing of the misfit, either way, in seconds.

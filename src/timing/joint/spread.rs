@@ -1,10 +1,10 @@
 //! Standard errors that know that neighbouring samples err alike.
 
 use super::Joint;
-use super::average::sums;
 use super::settle::Normal;
-use super::template::{MOST_SHARE, Sample};
 use crate::signal::interpolate::slope_gain;
+use crate::signal::template::average::sums;
+use crate::signal::template::{MOST_SHARE, Sample};
 use crate::units::real;
 
 /// Blocks of equal information that a sound is cut into; two parameters are fitted to them.

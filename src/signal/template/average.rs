@@ -1,14 +1,13 @@
 //! Weighted sums of sounds, sample by sample.
 
-use super::template::Sample;
-use crate::units::real;
+use super::Sample;
 
 /// Share of a weight matrix's trace that is added to its diagonal: where two impacts are alike in speed their
 /// components cannot be told apart.
 const RIDGE: f64 = 1e-6;
 
 /// The sum of sequences of one length.
-pub(super) fn sums(of: &[Vec<f64>]) -> Vec<f64> {
+pub(crate) fn sums(of: &[Vec<f64>]) -> Vec<f64> {
     let mut sums = vec![0.0; of.first().map_or(0, Vec::len)];
     for values in of {
         for (sum, value) in sums.iter_mut().zip(values) {
@@ -69,7 +68,7 @@ pub(super) fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], components:
 }
 
 /// Solves `Σ_c moments[r + c]·y_c = right_r` in place, by elimination; the matrix is positive definite.
-pub(super) fn solve(moments: &[f64; 5], right: &mut [f64; 3], size: usize) {
+pub(crate) fn solve(moments: &[f64; 5], right: &mut [f64; 3], size: usize) {
     let ridge = RIDGE * moments[0];
     let mut rows = [[0.0; 3]; 3];
     for (r, row) in rows.iter_mut().enumerate() {
@@ -90,35 +89,5 @@ pub(super) fn solve(moments: &[f64; 5], right: &mut [f64; 3], size: usize) {
     for r in (0..size).rev() {
         let known: f64 = (r + 1..size).map(|c| rows[r][c] * right[c]).sum();
         right[r] = (right[r] - known) / rows[r][r];
-    }
-}
-
-/// Running mean over `2·reach + 1` values; the first and the last go on beyond the ends.
-pub(super) fn smoothed(values: &[f64], reach: usize) -> Vec<f64> {
-    let Some(last) = values.len().checked_sub(1) else {
-        return Vec::new();
-    };
-    let at = |k: usize| values[k.saturating_sub(reach).min(last)];
-    let mut sum: f64 = (0..=2 * reach).map(at).sum();
-    let scale = 1.0 / real(2 * reach + 1);
-    let mut out = Vec::with_capacity(values.len());
-    for k in 0..values.len() {
-        out.push((scale * sum).max(0.0));
-        sum += at(k + 2 * reach + 1) - at(k);
-    }
-    out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_running_mean_is_that_of_the_definition() {
-        let values: Vec<f64> = (0..40).map(|i| real(i * i % 17)).collect();
-        for (k, mean) in smoothed(&values, 3).iter().enumerate() {
-            let near = (0..7).map(|j| values[(k + j).saturating_sub(3).min(39)]);
-            assert!((mean - near.sum::<f64>() / 7.0).abs() < 1e-12, "value {k}");
-        }
     }
 }

@@ -1,11 +1,10 @@
 //! Constant-fraction timing: where an impact's envelope first reaches a fixed share of its own peak.
 
-use super::Window;
 use crate::units::{real, samples_in};
 
 /// Where an envelope rises, in samples of its window.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rise {
+pub(crate) struct Rise {
     /// Position between samples.
     pub position: f64,
     /// Standard error by the noise on the slope.
@@ -20,17 +19,12 @@ const SMOOTHING_S: f64 = 0.1e-3;
 const EARLIEST_S: f64 = 0.8e-3;
 const LATEST_S: f64 = 1.5e-3;
 
-/// The constant-fraction time of a window; none if its peak is not clear of the noise.
+/// The constant-fraction time of a sound that begins near the sample `coarse`; none if its peak is not clear of the noise.
 #[must_use]
-pub fn time(window: &Window, sample_rate_hz: f64) -> Option<Rise> {
-    let envelope = envelope(
-        &window.samples,
-        samples_in(SMOOTHING_S, sample_rate_hz).max(1),
-    );
-    let from = window
-        .coarse
-        .saturating_sub(samples_in(EARLIEST_S, sample_rate_hz));
-    let to = (window.coarse + samples_in(LATEST_S, sample_rate_hz)).min(envelope.len());
+pub(crate) fn time(samples: &[f64], coarse: usize, sample_rate_hz: f64) -> Option<Rise> {
+    let envelope = envelope(samples, samples_in(SMOOTHING_S, sample_rate_hz).max(1));
+    let from = coarse.saturating_sub(samples_in(EARLIEST_S, sample_rate_hz));
+    let to = (coarse + samples_in(LATEST_S, sample_rate_hz)).min(envelope.len());
     let peak = (from..to).max_by(|&a, &b| envelope[a].total_cmp(&envelope[b]))?;
     // What rings on from the impact before is the level that this one rises from.
     let before = &envelope[from.saturating_sub(to - from)..from];

@@ -1,7 +1,13 @@
-//! What the impacts of a drop have in common, and how much they differ.
+//! The template: the sound that the impacts of a drop have in common, and how much they differ.
 
-use super::average::{smoothed, sums, weighted_fit, weighted_mean};
-use crate::signal::interpolate::{KERNEL, slope};
+pub(crate) mod aligned;
+pub(crate) mod average;
+
+use super::fraction;
+use super::interpolate::{KERNEL, slope};
+use super::smooth::smoothed;
+use crate::units::real;
+use average::{sums, weighted_fit, weighted_mean};
 
 /// The head holds this share of the template's energy: the rest tells little of time.
 const HEAD_SHARE: f64 = 0.95;
@@ -9,14 +15,14 @@ const HEAD_SHARE: f64 = 0.95;
 const CLEAR: f64 = 1.5;
 /// Sample k of each component belongs to `k − before` samples after the onset.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Template {
+pub struct Template {
     /// `S_c`, of one length.
-    pub components: Vec<Vec<f64>>,
+    pub(crate) components: Vec<Vec<f64>>,
     /// Variance of the difference between an impact of amplitude 1 and its template.
-    pub misfit: Vec<f64>,
-    pub before: usize,
+    pub(crate) misfit: Vec<f64>,
+    pub(crate) before: usize,
     /// Samples that are matched: the rest tells little of time.
-    pub head: usize,
+    pub(crate) head: usize,
     /// The sound of each impact, where impacts differ by their speed.
     shapes: Vec<Vec<f64>>,
     /// The derivative of each, or of all, as far as the head.
@@ -29,7 +35,7 @@ pub(super) struct Template {
 
 /// What is known of one impact's sound.
 #[derive(Debug)]
-pub(super) struct Sample {
+pub(crate) struct Sample {
     pub amplitude: f64,
     pub slowness: f64,
     /// Its sound, all others taken out.
@@ -40,7 +46,7 @@ pub(super) struct Sample {
 
 impl Template {
     /// A template of one component, with its variance; impacts are taken to be alike.
-    pub(super) fn new(mean: Vec<f64>, noise: Vec<f64>, before: usize) -> Self {
+    pub(crate) fn new(mean: Vec<f64>, noise: Vec<f64>, before: usize) -> Self {
         let misfit = vec![0.0; mean.len()];
         let mut template = Self {
             components: vec![mean],
@@ -54,22 +60,28 @@ impl Template {
         template
     }
 
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.misfit.len()
     }
 
     /// S₀.
-    pub(super) fn mean(&self) -> &[f64] {
+    pub(crate) fn mean(&self) -> &[f64] {
         &self.components[0]
     }
 
+    /// Where its sound begins, in samples after its nominal onset: the constant fraction of its rise.
+    pub(crate) fn onset(&self, rate: f64) -> f64 {
+        let rise = fraction::time(self.mean(), self.before, rate);
+        rise.map_or(0.0, |r| r.position - real(self.before))
+    }
+
     /// The sound of impact `i` at amplitude 1.
-    pub(super) fn shape(&self, i: usize) -> &[f64] {
+    pub(crate) fn shape(&self, i: usize) -> &[f64] {
         self.shapes.get(i).unwrap_or(&self.components[0])
     }
 
     /// The head of that sound's derivative, per sample.
-    pub(super) fn slopes(&self, i: usize) -> &[f64] {
+    pub(crate) fn slopes(&self, i: usize) -> &[f64] {
         let all_alike = self.slopes.first().map_or(&[][..], Vec::as_slice);
         self.slopes.get(i).map_or(all_alike, Vec::as_slice)
     }
@@ -101,7 +113,7 @@ impl Template {
     }
 
     /// Samples after which an impact of an amplitude is not heard any more.
-    pub(super) fn sounding_length(&self, amplitude: f64) -> usize {
+    pub(crate) fn sounding_length(&self, amplitude: f64) -> usize {
         let square = amplitude * amplitude;
         self.tail.partition_point(|t| square * t > INAUDIBLE)
     }
@@ -113,7 +125,7 @@ impl Template {
     /// ```text
     /// S(t) minimises Σ_i w_i(t)·(x_i(t)/a_i − Σ_c u_iᶜ·S_c(t))²,   w_i(t) = a_i²/noise_i(t)
     /// ```
-    pub(super) fn learn(&mut self, impacts: &[Sample], slownesses: &[f64], smoothing: usize) {
+    pub(crate) fn learn(&mut self, impacts: &[Sample], slownesses: &[f64], smoothing: usize) {
         let length = impacts.first().map_or(0, |s| s.sound.len());
         let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::weights).collect();
         if self.components.len() == 1 {
@@ -205,7 +217,7 @@ impl Template {
 
 impl Sample {
     /// `a²/noise`: how much the impact knows of the template.
-    pub(super) fn weights(&self) -> Vec<f64> {
+    pub(crate) fn weights(&self) -> Vec<f64> {
         let square = self.amplitude * self.amplitude;
         self.noise.iter().map(|n| square / n).collect()
     }
@@ -225,13 +237,12 @@ fn combine(components: &[Vec<f64>], slowness: f64, sum: &mut [f64]) {
 const INAUDIBLE: f64 = 0.02;
 
 /// An impact that is nearly all of its own template says little of how impacts differ.
-pub(super) const MOST_SHARE: f64 = 0.9;
+pub(crate) const MOST_SHARE: f64 = 0.9;
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
-    use crate::units::real;
 
     #[test]
     fn components_and_misfit_are_those_that_the_sounds_were_made_of() {

@@ -1,0 +1,73 @@
+//! A template as it is first learnt: the mean of impacts that are aligned.
+
+use super::Template;
+use crate::signal::smooth::smoothed;
+use crate::units::{real, samples_in};
+
+/// The template is at least this long after the onset, in seconds.
+pub(crate) const SHORTEST_S: f64 = 4e-3;
+/// Energy is judged over this time either way, in seconds.
+const ENERGY_S: f64 = 4e-3;
+
+/// The sound of one impact, cut where it is aligned with others.
+#[derive(Debug, Clone)]
+pub(crate) struct Aligned {
+    /// Size in units of the template.
+    pub amplitude: f64,
+    /// All of one length.
+    pub sound: Vec<f64>,
+}
+
+/// The sum of the squares of the amplitudes.
+fn power(impacts: &[Aligned]) -> f64 {
+    impacts.iter().map(|i| i.amplitude * i.amplitude).sum()
+}
+
+/// The mean sound for an amplitude of 1, each impact by its size: `Σ aᵢ·xᵢ / Σ aᵢ²`.
+pub(crate) fn mean(impacts: &[Aligned]) -> Vec<f64> {
+    let mut mean = vec![0.0; impacts.first().map_or(0, |i| i.sound.len())];
+    for impact in impacts {
+        for (m, x) in mean.iter_mut().zip(&impact.sound) {
+            *m += impact.amplitude * x;
+        }
+    }
+    let power = power(impacts);
+    mean.iter_mut().for_each(|m| *m /= power);
+    mean
+}
+
+/// The variance of what two or more impacts leave of their mean at each sample: `Σ (xᵢ − aᵢ·s)² / (n − 1)`.
+fn left_over(impacts: &[Aligned], mean: &[f64]) -> Vec<f64> {
+    let mut left = vec![0.0; mean.len()];
+    for impact in impacts {
+        for ((l, x), s) in left.iter_mut().zip(&impact.sound).zip(mean) {
+            *l += (x - impact.amplitude * s).powi(2) / real(impacts.len() - 1);
+        }
+    }
+    left
+}
+
+impl Template {
+    /// The mean of impacts that sound alone, each from `before` samples before its onset on, as far as it stands out of the
+    /// noise; none where it does not, and of fewer than two.
+    pub(crate) fn of_aligned(impacts: &[Aligned], before: usize, rate: f64) -> Option<Self> {
+        if impacts.len() < 2 {
+            return None;
+        }
+        let mut shape = mean(impacts);
+        let power = power(impacts);
+        let reach = samples_in(ENERGY_S, rate);
+        let noise = smoothed(&left_over(impacts, &shape), reach);
+        let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
+        // Were it noise, the mean's power would be what single impacts leave, over all their power. A mean of n squares
+        // scatters by √(2/n); four times that is a sound.
+        let loud = 1.0 + 4.0 * (1.0 / real(reach)).sqrt();
+        let last = smoothed(&squares, reach)
+            .iter()
+            .zip(&noise)
+            .rposition(|(e, n)| e * power > loud * n)?;
+        shape.truncate((last + reach).max(before + samples_in(SHORTEST_S, rate)));
+        let noise = noise[..shape.len()].iter().map(|n| n / power).collect();
+        Some(Self::new(shape, noise, before))
+    }
+}
