@@ -59,6 +59,7 @@ pub mod detect;
 pub mod error;
 pub mod evaluate;
 pub mod fit;
+mod linalg;
 pub mod physics;
 pub mod picture;
 pub mod plot;

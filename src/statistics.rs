@@ -1,6 +1,12 @@
 //! Medians and quantiles, for all that need them. What does not exist is `None`.
 
-use crate::units::{real, samples_in};
+use crate::units::{real, whole};
+
+/// The standard deviation of a normal distribution over its median absolute deviation, `1/Φ⁻¹(¾)`.
+pub const MAD_TO_STD: f64 = 1.482_602_218_505_602;
+
+/// The 0.975 quantile of the standard normal distribution, `Φ⁻¹(0.975)`: 95 % lie within as many standard deviations.
+pub const NORMAL95: f64 = 1.959_963_984_540_054;
 
 /// The middle value; the mean of the two in the middle of an even number.
 #[must_use]
@@ -22,7 +28,7 @@ pub fn upper_median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
 #[must_use]
 pub fn quantile(values: impl IntoIterator<Item = f64>, share: f64) -> Option<f64> {
     let sorted = sorted(values);
-    let rank = samples_in((share * real(sorted.len())).ceil(), 1.0).max(1);
+    let rank = whole((share * real(sorted.len())).ceil()).max(1);
     sorted.get(rank - 1).copied()
 }
 
@@ -44,6 +50,14 @@ mod tests {
         assert_eq!(upper_median([4.0, 1.0, 3.0, 2.0]), Some(3.0));
         assert_eq!(median([]), None);
         assert_eq!(upper_median([]), None);
+    }
+
+    #[test]
+    fn constants_of_the_normal_distribution_are_its_quantiles() {
+        use statrs::distribution::{ContinuousCDF, Normal};
+        let normal = Normal::standard();
+        assert!((normal.inverse_cdf(0.75) * MAD_TO_STD - 1.0).abs() < 1e-12);
+        assert!((normal.inverse_cdf(0.975) - NORMAL95).abs() < 1e-12);
     }
 
     #[test]

@@ -65,15 +65,29 @@ pub const fn real(count: usize) -> f64 {
     count as f64
 }
 
-/// Number of whole samples in a span, rounded to nearest. The one place where seconds become samples.
+/// The single-precision number nearest to a double: 24 bits are enough for energies, evidence and matches.
+#[expect(clippy::cast_possible_truncation, reason = "as is said above")]
+#[must_use]
+pub const fn narrow(x: f64) -> f32 {
+    x as f32
+}
+
+/// The whole number nearest to a real one, halves away from zero: below 0 it is 0, beyond what a count holds the greatest
+/// count, and 0 for NaN.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
-    reason = "`as` saturates: NaN and negatives become 0, which callers treat as an empty span"
+    reason = "`as` saturates, as is said above"
 )]
 #[must_use]
+pub fn whole(x: f64) -> usize {
+    x.round() as usize
+}
+
+/// Number of whole samples in a span, rounded to nearest; a negative span or NaN is empty. The one place where seconds become samples.
+#[must_use]
 pub fn samples_in(span_s: f64, sample_rate_hz: f64) -> usize {
-    (span_s * sample_rate_hz).round() as usize
+    whole(span_s * sample_rate_hz)
 }
 
 /// What a number with a unit measures.
@@ -158,6 +172,20 @@ impl Quantity {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn whole_numbers_are_the_nearest_and_end_where_counts_do() {
+        for (x, count) in [
+            (2.4, 2),
+            (2.5, 3),
+            (-0.4, 0),
+            (-7.0, 0),
+            (f64::NAN, 0),
+            (1e30, usize::MAX),
+        ] {
+            assert_eq!(whole(x), count, "{x}");
+        }
+    }
 
     #[test]
     fn numbers_with_units_become_si() {

@@ -6,10 +6,10 @@
 
 use super::Candidate;
 use super::pursuit::{Pattern, Residue};
-use crate::signal::correlate::dot;
+use crate::linalg::dot;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
-use crate::units::{real, samples_in};
+use crate::units::{real, samples_in, whole};
 
 /// A sound is taken out over this many seconds at most: a ring, an echo from a wall some metres away.
 const LONGEST_S: f64 = 45e-3;
@@ -50,7 +50,7 @@ pub fn candidates(
     let start = samples_in(region_s.0, rate);
     let end = samples_in(region_s.1, rate).min(sound.range().end);
     let sound = sound.between(start, end)?;
-    let most = samples_in(PER_SECOND, region_s.1 - region_s.0);
+    let most = whole(PER_SECOND * (region_s.1 - region_s.0));
     let apart = samples_in(APART_S, rate).max(1);
     let onset = real(start + before) + template.onset(rate);
     let mut found: Vec<Candidate> = Residue::new(&sound, &pattern)?

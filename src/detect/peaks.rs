@@ -17,7 +17,7 @@ const PROMINENCE: f32 = 0.5;
 /// their height, in order.
 #[must_use]
 pub fn pick(values: &[f32], separation: f64, lowest: f64) -> Vec<Peak> {
-    let reach = crate::units::samples_in(separation, 1.0).max(1);
+    let reach = crate::units::whole(separation).max(1);
     let mut peaks = Vec::new();
     for (i, &height) in values.iter().enumerate() {
         if f64::from(height) < lowest {

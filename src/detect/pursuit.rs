@@ -1,9 +1,9 @@
 //! Matching pursuit: the best match of a pattern, taken out whole, and the next best in what is left.
 
-use super::windows::narrow;
-use crate::signal::correlate::{correlate, dot};
+use crate::linalg::dot;
+use crate::signal::correlate::correlate;
 use crate::signal::interpolate::shifted;
-use crate::units::{real, samples_in};
+use crate::units::{narrow, real, whole};
 
 /// A sound that is sought, of which only the first samples are matched.
 #[derive(Debug, Clone)]
@@ -151,7 +151,7 @@ impl OwnMatch {
     /// Takes `z·R` out at an index and `later` in (−½, ½) of a sample; gives the range that changed.
     fn subtract(&self, products: &mut [f32], at: usize, later: f64, z: f32) -> (usize, usize) {
         let place = (later + 0.5) * real(STEPS);
-        let nearest = samples_in(place, 1.0).min(STEPS);
+        let nearest = whole(place).min(STEPS);
         let off = narrow(place - real(nearest));
         let weights = [
             0.5 * z * off * (off - 1.0),

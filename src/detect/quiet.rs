@@ -1,6 +1,6 @@
 //! A cheap watch over everything: most of a long recording is nothing but its own noise.
 
-use crate::units::{real, samples_in};
+use crate::units::{narrow, real, samples_in};
 
 /// Length of the frames whose energies are compared, in seconds: about that of an impact.
 const FRAME_S: f64 = 1e-3;
@@ -58,9 +58,9 @@ impl Watch {
     /// Whether anything rises in the next unit; the last one of a recording may be shorter.
     pub fn rises(&mut self, unit: &[f32]) -> bool {
         self.measure(unit);
-        let scale = 1.0 / narrow(self.frame);
+        let scale = 1.0 / narrow(real(self.frame));
         // The sums of sixteen, not their means, and for each group of sixteen one.
-        let bass_scale = 1.0 / narrow(self.frame * LOW_FRAMES * LOW);
+        let bass_scale = 1.0 / narrow(real(self.frame * LOW_FRAMES * LOW));
         // All three have to be told what was heard, whatever the others say.
         let rises = [
             self.all.rises(scale),
@@ -103,7 +103,7 @@ impl Past {
     /// Whether any frame exceeds the mean of those before it; they then all are past. `scale` makes mean squares of
     /// the energies.
     fn rises(&mut self, scale: f32) -> bool {
-        let usual_scale = RISE / narrow(USUAL);
+        let usual_scale = RISE / narrow(real(USUAL));
         let least = RISE * SILENCE / scale;
         let frames = &self.energies[USUAL..];
         // One window after the other, but without a way out of the loop: so the machine's vectors can be used.
@@ -165,11 +165,6 @@ fn total(lanes: [f32; LANES]) -> f32 {
     (lanes[0] + lanes[2]) + (lanes[1] + lanes[3])
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "counts of a few samples")]
-fn narrow(count: usize) -> f32 {
-    real(count) as f32
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -216,7 +211,7 @@ mod tests {
     fn a_thud_under_hiss_rises() {
         let mut sound = noise_with(0.0);
         for (i, x) in sound[240_000..240_480].iter_mut().enumerate() {
-            *x += 0.012 * (std::f32::consts::PI * narrow(i) / 120.0).sin();
+            *x += 0.012 * (std::f32::consts::PI * narrow(real(i)) / 120.0).sin();
         }
         assert_eq!(restless_s(&sound).len(), 2);
     }

@@ -1,10 +1,10 @@
 //! How surely the energy went up at each moment.
 
 use super::rounding::rounding_density;
-use super::windows::{FALLING_SHARE, narrow, rises};
+use super::windows::{FALLING_SHARE, rises};
 use crate::signal::filterbank::{Band, Filterbank};
 use crate::signal::logarithm::ln_from_one;
-use crate::units::real;
+use crate::units::{narrow, real};
 
 /// Shortest window after the moment, in seconds: the ring of one impact lasts longer.
 const AFTER_S: f64 = 1e-3;
@@ -263,7 +263,7 @@ fn quantile(values: &[f32], share: f64) -> f32 {
     if some.is_empty() {
         return 0.0;
     }
-    let index = crate::units::samples_in(share, real(some.len() - 1));
+    let index = crate::units::whole(share * real(some.len() - 1));
     *some.select_nth_unstable_by(index, f32::total_cmp).1
 }
 

@@ -1,6 +1,6 @@
 //! Mean energies of the windows before and after each moment.
 
-use crate::units::real;
+use crate::units::{narrow, real};
 
 /// Values of equal weight that a window with linearly falling weights is worth: (Σw)²/Σw² = ¾ of its length.
 pub(super) const FALLING_SHARE: f64 = 0.75;
@@ -59,15 +59,6 @@ fn falling_means(energies: &[f32], window: usize) -> Vec<f32> {
         step_back(mean, energy, left);
     }
     means
-}
-
-/// The same number, nearly.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "evidence and energies need no more than an f32"
-)]
-pub(super) const fn narrow(x: f64) -> f32 {
-    x as f32
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::student;
-use crate::statistics::median;
+use crate::statistics::{MAD_TO_STD, median};
 use crate::units::real;
 
 /// The share of batches without any outlier in which one is named all the same.
@@ -103,7 +103,7 @@ pub fn outliers(measurements: &[Measurement]) -> Vec<Outlier> {
         return Vec::new();
     };
     let deviation = median(measurements.iter().map(|(x, _)| (x - middle).abs())).unwrap_or(0.0);
-    let between = ((1.4826 * deviation).powi(2) - variance).max(0.0);
+    let between = ((MAD_TO_STD * deviation).powi(2) - variance).max(0.0);
     let far = student(
         1.0 - 0.5 * FALSE_ALARMS / count,
         (0.5 * (count - 1.0)).max(0.5),

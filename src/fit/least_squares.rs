@@ -4,6 +4,7 @@ use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
 use super::bounces::{Bounces, MOST};
 use super::noise::{Noise, Sizes};
+use crate::linalg::{Cholesky, dot};
 use crate::units::real;
 
 /// Precision and precision-weighted centre of a parameter before the data, as far as it lies from its trial value.
@@ -176,7 +177,8 @@ fn solve_columns<const N: usize>(
         normal[i][i] += prior.precision;
         right[i] = products[i][count] + prior.precision * prior.centre + density.pull[i];
     }
-    let (covariance, ln_determinant) = inverse(&normal, count)?;
+    let inverse = Cholesky::of(&normal, count)?;
+    let (covariance, ln_determinant) = (inverse.inverse(), inverse.ln_determinant());
     let values: [f64; MOST] = std::array::from_fn(|i| dot(&covariance[i], &right));
     let mut misfit: f64 = 0.0;
     for (row, precision) in white.iter().zip(factors.precisions()) {
@@ -241,50 +243,4 @@ impl Density {
         }
         density
     }
-}
-
-fn dot(a: &[f64; MOST], b: &[f64; MOST]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
-}
-
-/// Inverse and ln of the determinant of the leading part of a positive definite matrix, by Gauss and Jordan.
-fn inverse(matrix: &[[f64; MOST]; MOST], count: usize) -> Option<([[f64; MOST]; MOST], f64)> {
-    let (mut left, mut right) = (*matrix, [[0.0; MOST]; MOST]);
-    // Columns differ by orders of magnitude (seconds, s⁻²): scaled to a unit diagonal nothing is lost.
-    let scales: [f64; MOST] = std::array::from_fn(|i| matrix[i][i].sqrt());
-    if scales[..count].iter().any(|s| !(*s > 0.0 && s.is_finite())) {
-        return None;
-    }
-    let mut ln_determinant = 0.0;
-    for i in 0..count {
-        for j in 0..count {
-            left[i][j] /= scales[i] * scales[j];
-        }
-        right[i][i] = 1.0;
-        ln_determinant += 2.0 * scales[i].ln();
-    }
-    for i in 0..count {
-        let pivot = left[i][i];
-        if pivot <= 1e-14 {
-            return None;
-        }
-        ln_determinant += pivot.ln();
-        for j in 0..count {
-            left[i][j] /= pivot;
-            right[i][j] /= pivot;
-        }
-        for k in (0..count).filter(|&k| k != i) {
-            let factor = left[k][i];
-            for j in 0..count {
-                left[k][j] -= factor * left[i][j];
-                right[k][j] -= factor * right[i][j];
-            }
-        }
-    }
-    for i in 0..count {
-        for j in 0..count {
-            right[i][j] /= scales[i] * scales[j];
-        }
-    }
-    Some((right, ln_determinant))
 }

@@ -23,6 +23,8 @@ pub use flights::Flights;
 use serde::Serialize;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
+use crate::statistics::NORMAL95;
+
 /// A value with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Estimate {
@@ -65,9 +67,8 @@ impl Estimate {
 /// The 0.975 quantile of Student's distribution; the normal's where the degrees of freedom are infinite.
 #[must_use]
 pub fn student_975(degrees_of_freedom: f64) -> f64 {
-    const NORMAL: f64 = 1.959_963_984_540_054;
     if degrees_of_freedom > 1e6 {
-        return NORMAL;
+        return NORMAL95;
     }
     student(0.975, degrees_of_freedom)
 }

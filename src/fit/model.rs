@@ -9,6 +9,7 @@ use super::noise::Noise;
 use super::posterior::Posterior;
 use super::state::State;
 use super::stray::{self, Strays};
+use crate::statistics::NORMAL95;
 
 /// Fewest impacts with a ratio of flights.
 const FEWEST: usize = 3;
@@ -136,8 +137,6 @@ pub(super) struct Rival {
     pub interval95: [f64; 2],
 }
 
-/// Standard deviations of a normal distribution within which 95 % lie.
-const NORMAL95: f64 = 1.959_964;
 /// The ends of a mixture lie within the widest of its intervals; so many reaches are looked through all the same.
 const FAR: f64 = 2.0;
 /// Four reaches halved so often leave a hundred-thousandth of one.

@@ -179,7 +179,7 @@ fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)>
         from = (hill.lowest - grid.step).max(first);
         to = (hill.highest + grid.step).min(last);
     }
-    let count = crate::units::samples_in(((to - from) / FINE_STEP).ceil(), 1.0) + 1;
+    let count = crate::units::whole(((to - from) / FINE_STEP).ceil()) + 1;
     Some((Grid::new(from, to, count.max(FEWEST_STEPS)), top))
 }
 
@@ -239,7 +239,7 @@ impl Grid {
         negligible: f64,
         of: impl Fn(f64) -> Option<(f64, T)>,
     ) -> Option<Hill<T>> {
-        let start = crate::units::samples_in((start - self.from) / self.step, 1.0);
+        let start = crate::units::whole((start - self.from) / self.step);
         let start = start.min(self.count - 1);
         let mut top: Option<(f64, f64, T)> = None;
         let mut values = Vec::with_capacity(self.count);

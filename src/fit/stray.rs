@@ -4,7 +4,7 @@ use super::least_squares::solve;
 use super::noise::Sizes;
 use super::posterior::likeliest;
 use super::state::{State, pulls, time_pull};
-use crate::statistics::upper_median;
+use crate::statistics::{MAD_TO_STD, upper_median};
 
 /// Nats that a stray has to be worth: one bounce or time in two hundred strays, `ln((1 − q)/q)` with q = 0.005.
 const PRICE: f64 = 5.293_304_824_724_492;
@@ -144,8 +144,6 @@ fn farthest_time(state: &State<'_>, sizes: Sizes) -> Option<Option<usize>> {
 
 /// What is off by more than this many robust standard deviations is looked at together.
 const FAR: f64 = 5.0;
-/// The standard deviation of a normal distribution over its median absolute deviation.
-const MAD_TO_STD: f64 = 1.4826;
 
 /// The likelihood as it stands, the bounce and the time that are farthest off by their own errors; none if none is.
 fn suspects(state: &State<'_>) -> Option<(f64, usize, usize)> {

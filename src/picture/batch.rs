@@ -2,7 +2,7 @@
 
 use super::{around, printable};
 use crate::plot::{Axis, Band, Colour, Dots, Figure, Layer, Note, Panel, Row, Shape, Side};
-use crate::units::{real, samples_in};
+use crate::units::{real, whole};
 
 /// One drop of a batch.
 #[derive(Debug, Clone, PartialEq)]
@@ -115,11 +115,11 @@ fn histogram(rows: &[&BatchRow]) -> Panel {
     let (low, high) = around(rows.iter().map(|r| r.restitution), 1e-9);
     let bins = real(rows.len()).sqrt().ceil().clamp(BINS.0, BINS.1);
     let width = (high - low) / bins;
-    let mut counts = vec![0_usize; samples_in(bins, 1.0)];
+    let mut counts = vec![0_usize; whole(bins)];
     for row in rows {
         // The whole bins below it; the greatest e belongs to the last bin.
         let below = ((row.restitution - low) / width).floor();
-        let bin = samples_in(below, 1.0).min(counts.len() - 1);
+        let bin = whole(below).min(counts.len() - 1);
         counts[bin] += 1;
     }
     let most = real(counts.iter().copied().max().unwrap_or(0).max(1));

@@ -3,7 +3,7 @@
 use crate::Error;
 use crate::physics::{BounceSeries, Restitution};
 use crate::plot::{Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side};
-use crate::units::{real, samples_in};
+use crate::units::{real, whole};
 
 /// e of the curves of the paper.
 const CURVES: [f64; 6] = [0.70, 0.80, 0.85, 0.90, 0.93, 0.95];
@@ -41,7 +41,7 @@ pub fn figure(
     title: &str,
 ) -> Result<Figure, Error> {
     let series = BounceSeries::new(height_m, gravity_m_per_s2)?;
-    let last = samples_in(BEYOND * real(point.bounces.max(2)), 1.0);
+    let last = whole(BEYOND * real(point.bounces.max(2)));
     let own = point.restitution;
     let mut drawn: Vec<(f64, Colour)> = CURVES.into_iter().zip(Colour::FAMILY).collect();
     drawn.retain(|(e, _)| own.is_none_or(|own| (e - own).abs() > NEAR));

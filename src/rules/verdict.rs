@@ -9,13 +9,11 @@ use crate::physics::{
 };
 use crate::report::rule::{Judged, Outcome};
 use crate::report::{Drop, Model};
+use crate::statistics::NORMAL95;
 
 /// Outside the speeds that were heard e may depend on speed as that of balls at large does, `e ∝ v^−p` with p of this
 /// size: by so much is ln e off for each unit of ln v.
 const EXPONENT_BEYOND: f64 = 0.05;
-/// Standard deviations of a normal distribution within which 95 % lie.
-const NORMAL95: f64 = 1.959_964;
-
 /// A rule's drop of a ball.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Test<'a> {

@@ -142,7 +142,7 @@ impl Clutter {
         let last = self.all.len().saturating_sub(explained.strengths.len() + 1);
         let at = |share: f64| {
             self.all
-                .get(crate::units::samples_in(share, real(last)))
+                .get(crate::units::whole(share * real(last)))
                 .copied()
                 .unwrap_or(0.0)
         };
@@ -160,7 +160,7 @@ fn alike(strengths: &[f64], strength: f64) -> usize {
 }
 
 fn bin_of(after_start_s: f64) -> usize {
-    crate::units::samples_in((after_start_s / BIN_S).floor().max(0.0), 1.0)
+    crate::units::whole((after_start_s / BIN_S).floor().max(0.0))
 }
 
 /// Rates of clutter at the events of a scene, each computed when it is first asked for: hypotheses meet at the same

@@ -1,6 +1,7 @@
 //! What is known of the next flight, given the flights so far.
 
 use super::Settings;
+use crate::linalg::dot;
 use crate::units::real;
 
 /// A line for ln of the flights' ratios, kept as a Kalman filter of three states with its own scatter.
@@ -178,10 +179,6 @@ impl FlightLaw {
     fn gains(&self, slopes: &[f64; STATES]) -> [f64; STATES] {
         std::array::from_fn(|i| dot(&self.covariance[i], slopes))
     }
-}
-
-fn dot(a: &[f64; STATES], b: &[f64; STATES]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 #[cfg(test)]

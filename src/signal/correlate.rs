@@ -1,20 +1,6 @@
-//! Products of sequences: sums and correlations.
+//! Correlations.
 
 use crate::units::real;
-
-/// `Σ aᵢ·bᵢ` over two sequences of one length, in sums that run side by side.
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    const LANES: usize = 8;
-    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    let mut sums = [0.0; LANES];
-    for (x, y) in a.iter().zip(b) {
-        for (sum, (x, y)) in sums.iter_mut().zip(x.iter().zip(y)) {
-            *sum += x * y;
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(x, y)| x * y).sum();
-    sums.iter().sum::<f64>() + rest
-}
 
 /// Transforms are this many times as long as the shorter sequence, or a little longer: most of each is then of use, and
 /// it fits the cache.
@@ -84,6 +70,7 @@ impl Correlator {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::linalg::dot;
     use crate::random::SplitMix64;
 
     #[test]

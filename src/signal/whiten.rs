@@ -1,8 +1,8 @@
 //! A filter after which the noise of this recording is white, by linear prediction.
 
-use super::correlate::dot;
 use super::interpolate::correlated;
-use crate::units::{real, samples_in};
+use crate::linalg::{Cholesky, dot};
+use crate::units::{real, samples_in, whole};
 
 /// Coefficients of the predictor: enough to flatten the slope of a room's noise and the hum below it.
 const ORDER: usize = 24;
@@ -127,7 +127,7 @@ fn quiet_frames(samples: &[f32], sample_rate_hz: f64, span_s: (f64, f64)) -> Vec
         .filter(|(e, _)| *e > 0.0)
         .collect();
     frames.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let keep = samples_in(QUIET_SHARE, real(frames.len()))
+    let keep = whole(QUIET_SHARE * real(frames.len()))
         .max(4)
         .min(frames.len());
     frames.truncate(keep);
@@ -160,32 +160,16 @@ fn add_products(frame: &[f64], products: &mut [[f64; ORDER + 1]; ORDER + 1]) {
 ///
 /// Unlike the recursion for an autocorrelation it takes no sample beyond a frame for zero, so a hum whose period is
 /// longer than the frame is predicted as well as any: `x[n] = Σ a_k·x[n−k]` holds in every part of it.
-/// Solved by Cholesky's factors.
+/// Products that have no inverse predict nothing.
 fn predictor(products: &[[f64; ORDER + 1]; ORDER + 1]) -> ([f64; ORDER], f64) {
-    let mut factor = [[0.0; ORDER]; ORDER];
-    for i in 0..ORDER {
-        for j in 0..=i {
-            let known: f64 = (0..j).map(|k| factor[i][k] * factor[j][k]).sum();
-            let left = products[i + 1][j + 1] - known;
-            factor[i][j] = if i == j {
-                left.max(f64::MIN_POSITIVE).sqrt()
-            } else {
-                left / factor[j][j]
-            };
-        }
-    }
-    let mut a = [0.0; ORDER];
-    for i in 0..ORDER {
-        let known: f64 = (0..i).map(|k| factor[i][k] * a[k]).sum();
-        a[i] = (products[i + 1][0] - known) / factor[i][i];
-    }
-    let explained: f64 = a.iter().map(|y| y * y).sum();
-    for i in (0..ORDER).rev() {
-        let known: f64 = (i + 1..ORDER).map(|k| factor[k][i] * a[k]).sum();
-        a[i] = (a[i] - known) / factor[i][i];
-    }
+    let covariance = std::array::from_fn(|i| std::array::from_fn(|j| products[i + 1][j + 1]));
+    let right = std::array::from_fn(|i| products[i + 1][0]);
+    let Some(factors) = Cholesky::of(&covariance, ORDER) else {
+        return ([0.0; ORDER], products[0][0]);
+    };
     let least = REGULARISATION * products[0][0];
-    (a, (products[0][0] - explained).max(least))
+    let left = products[0][0] - factors.quadratic(&right);
+    (factors.solve(&right), left.max(least))
 }
 
 #[cfg(test)]

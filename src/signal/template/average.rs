@@ -1,6 +1,7 @@
 //! Weighted sums of sounds, sample by sample.
 
 use super::Sample;
+use crate::linalg::Cholesky;
 
 /// Share of a weight matrix's trace that is added to its diagonal: where two impacts are alike in speed their
 /// components cannot be told apart.
@@ -31,7 +32,7 @@ pub(super) fn weighted_mean(impacts: &[Sample], weights: &[Vec<f64>], mean: &mut
     }
 }
 
-/// The components at each sample: up to three normal equations. Their sums grow sound by sound, over all samples, for
+/// The components at each sample: up to three normal equations, which give none where nothing was recorded. Their sums grow sound by sound, over all samples, for
 /// the machine's vectors.
 pub(super) fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], components: &mut [Vec<f64>]) {
     let (size, length) = (components.len(), weights.first().map_or(0, Vec::len));
@@ -59,35 +60,20 @@ pub(super) fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], components:
     for t in 0..length {
         let at = |of: &[Vec<f64>], k: usize| of.get(k).map_or(0.0, |values| values[t]);
         let moments = std::array::from_fn(|k| at(&moments, k));
-        let mut values = std::array::from_fn(|k| at(&right, k));
-        solve(&moments, &mut values, size);
+        let right = std::array::from_fn(|k| at(&right, k));
+        let values = factors(&moments, size).map_or([0.0; 3], |factors| factors.solve(&right));
         for (component, value) in components.iter_mut().zip(values) {
             component[t] = value;
         }
     }
 }
 
-/// Solves `Σ_c moments[r + c]·y_c = right_r` in place, by elimination; the matrix is positive definite.
-pub(crate) fn solve(moments: &[f64; 5], right: &mut [f64; 3], size: usize) {
-    let ridge = RIDGE * moments[0];
-    let mut rows = [[0.0; 3]; 3];
-    for (r, row) in rows.iter_mut().enumerate() {
-        for (c, cell) in row.iter_mut().enumerate() {
-            *cell = moments[r + c] + if r == c && r > 0 { ridge } else { 0.0 };
-        }
+/// The factors of the matrix of the moments, `M_rc = moments[r + c]`, of so many rows.
+pub(crate) fn factors(moments: &[f64; 5], size: usize) -> Option<Cholesky<3>> {
+    let mut matrix: [[f64; 3]; 3] =
+        std::array::from_fn(|r| std::array::from_fn(|c| moments[r + c]));
+    for (r, row) in matrix.iter_mut().enumerate().skip(1) {
+        row[r] += RIDGE * moments[0];
     }
-    for pivot in 0..size {
-        for r in pivot + 1..size {
-            let factor = rows[r][pivot] / rows[pivot][pivot];
-            let above = rows[pivot];
-            for (cell, above) in rows[r].iter_mut().zip(above) {
-                *cell -= factor * above;
-            }
-            right[r] -= factor * right[pivot];
-        }
-    }
-    for r in (0..size).rev() {
-        let known: f64 = (r + 1..size).map(|c| rows[r][c] * right[c]).sum();
-        right[r] = (right[r] - known) / rows[r][r];
-    }
+    Cholesky::of(&matrix, size)
 }

@@ -6,7 +6,7 @@ use crate::signal::correlate::Correlator;
 use crate::signal::interpolate::{KERNEL, shifted};
 use crate::signal::template::Template;
 use crate::signal::template::aligned::{Aligned, SHORTEST_S, mean};
-use crate::units::{real, samples_in};
+use crate::units::{real, samples_in, whole};
 
 /// Impacts are first aligned by this much of their sound at most, in seconds.
 const FIRST_S: f64 = 12e-3;
@@ -127,7 +127,7 @@ fn longest(flights: &[f64], rate: f64, before: usize) -> usize {
     let mut sorted = flights.to_vec();
     sorted.sort_by(|a, b| b.total_cmp(a));
     let third = sorted.get(2).or(sorted.last()).copied().unwrap_or(0.0);
-    let alone = samples_in(0.9 * third - real(before), 1.0);
+    let alone = whole(0.9 * third - real(before));
     alone.clamp(samples_in(SHORTEST_S, rate), samples_in(LONGEST_S, rate))
 }
 

@@ -4,8 +4,8 @@ use super::settle::Normal;
 use super::{Impact, Joint};
 use crate::signal::interpolate::{KERNEL, shifted, slope};
 use crate::signal::template::aligned::{Aligned, mean};
-use crate::signal::template::average::solve;
-use crate::statistics::upper_median;
+use crate::signal::template::average::factors;
+use crate::statistics::{MAD_TO_STD, upper_median};
 use crate::units::{real, samples_in};
 
 /// What is added to the positions so that they stand at the touch and not at a constant share of the contact:
@@ -174,7 +174,7 @@ fn drift(joint: &Joint, begins: &[Option<(f64, f64)>]) -> Option<Late> {
     for _ in 0..AVERAGINGS {
         let curve = Curve::through(&values, &weights, terms)?;
         let off = |v: &Value| (v.late - curve.at(v.slowness)) / v.std;
-        let scale = (1.48 * upper_median(values.iter().map(|v| off(v).abs()))?).max(1.0);
+        let scale = (MAD_TO_STD * upper_median(values.iter().map(|v| off(v).abs()))?).max(1.0);
         drift = Some(curve.late(scale));
         for (w, v) in weights.iter_mut().zip(&values) {
             *w = 1.0 / (v.std * v.std * (1.0 + (off(v) / (3.0 * scale)).powi(2)));
@@ -209,16 +209,10 @@ impl Curve {
                 power *= v.slowness;
             }
         }
-        solve(&moments, &mut right, terms);
-        let mut covariance = [[0.0; 3]; 3];
-        for (k, column) in covariance.iter_mut().enumerate().take(terms) {
-            column[k] = 1.0;
-            solve(&moments, column, terms);
-        }
-        let finite = right.iter().all(|c| c.is_finite());
-        finite.then_some(Self {
-            coefficients: right,
-            covariance,
+        let factors = factors(&moments, terms)?;
+        Some(Self {
+            coefficients: factors.solve(&right),
+            covariance: factors.inverse(),
         })
     }
 

@@ -27,7 +27,7 @@ use crate::signal::template::Template;
 use crate::signal::template::aligned::Aligned;
 use crate::signal::whiten::Whitened;
 use crate::statistics::upper_median;
-use crate::units::{real, samples_in};
+use crate::units::{real, samples_in, whole};
 
 /// Windows begin this long before the onset, in seconds.
 const BEFORE_S: f64 = 1e-3;
@@ -72,7 +72,7 @@ impl Impact {
 
     /// How far from its coarse time it is sought, in samples.
     fn reach(&self) -> usize {
-        samples_in(settle::PRIOR_REACH * self.jitter, 1.0).max(2)
+        whole(settle::PRIOR_REACH * self.jitter).max(2)
     }
 }
 

@@ -6,7 +6,7 @@ use super::{Joint, ROUNDS, SEARCHES};
 use crate::signal::interpolate::{KERNEL, shifted};
 use crate::signal::smooth::smoothed;
 use crate::signal::template::Sample;
-use crate::units::{real, samples_in};
+use crate::units::{real, samples_in, whole};
 
 /// Smoothing of the misfit, either way, in seconds.
 const MISFIT_S: f64 = 0.1e-3;
@@ -115,8 +115,8 @@ impl Joint {
             let overlaps = offset < real(heard) && offset + real(samples.len() + KERNEL) > 0.0;
             if j != i && overlaps {
                 // From its first sample to its last, as far as they are among these.
-                let skip = samples_in((-offset).floor(), 1.0).saturating_sub(KERNEL);
-                let last = samples_in((real(heard) - offset).ceil(), 1.0).min(samples.len());
+                let skip = whole((-offset).floor()).saturating_sub(KERNEL);
+                let last = whole((real(heard) - offset).ceil()).min(samples.len());
                 let (from, count) = (offset + real(skip), last.saturating_sub(skip));
                 let sounding = shifted(self.template.shape(j), from, count);
                 for (x, s) in samples[skip.min(last)..].iter_mut().zip(sounding) {
@@ -161,7 +161,7 @@ impl Joint {
     fn noise(&self, begin: f64, length: usize, without: Option<usize>) -> Vec<f64> {
         let mut noise = vec![UNKNOWN; length];
         let first = begin.round();
-        let (skip, from) = (samples_in(-first, 1.0), samples_in(first, 1.0));
+        let (skip, from) = (whole(-first), whole(first));
         let recorded = self.sound.len().saturating_sub(from);
         for n in noise.iter_mut().skip(skip).take(recorded) {
             *n = 1.0;
@@ -172,7 +172,7 @@ impl Joint {
             if Some(j) == without || offset >= real(misfit.len()) || offset + real(length) <= 0.0 {
                 continue;
             }
-            let (skip, from) = (samples_in(-offset, 1.0), samples_in(offset, 1.0));
+            let (skip, from) = (whole(-offset), whole(offset));
             let square = other.amplitude * other.amplitude;
             for (n, v) in noise[skip..].iter_mut().zip(&misfit[from..]) {
                 *n += square * v;

@@ -166,7 +166,7 @@ fn errors(sample: &Sample, shape: &[f64], slopes: &[f64], weights: &[f64]) -> Op
         let share = (sample.amplitude.powi(2) / noise / weights[t]).min(MOST_SHARE);
         let left = (sample.sound[t] - sample.amplitude * shape[t]) / (1.0 - share).sqrt();
         let pull = normal.pull(sample.amplitude, shape[t], slopes[t], noise);
-        let block = crate::units::samples_in((known / information * real(BLOCKS)).floor(), 1.0);
+        let block = crate::units::whole((known / information * real(BLOCKS)).floor());
         sums[block.min(BLOCKS - 1)] += pull * left;
         known += slopes[t].powi(2) / noise;
     }

@@ -47,7 +47,7 @@ impl Ball {
             } else {
                 onset - onsets_s[i - 1]
             };
-            let start = samples_in((onset * RATE).ceil(), 1.0);
+            let start = whole((onset * RATE).ceil());
             let until = (start + samples_in(12.0 * self.decay_s, RATE)).min(length);
             for (k, x) in sound[start..until].iter_mut().enumerate() {
                 let t_s = real(start + k) / RATE - onset;
@@ -194,7 +194,7 @@ fn an_impact_unlike_the_others_keeps_the_detectors_time_and_says_so() {
     let onsets_s = onsets(12, 0.4, 0.85);
     let mut samples = click.recorded(&onsets_s, 1);
     let mut rng = SplitMix64::new(9);
-    let odd = samples_in(onsets_s[5] * RATE, 1.0);
+    let odd = whole(onsets_s[5] * RATE);
     for x in &mut samples[odd..odd + 400] {
         #[expect(clippy::cast_possible_truncation, reason = "test samples")]
         let noise = (0.3 * rng.normal()) as f32;
