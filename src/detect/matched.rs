@@ -97,7 +97,7 @@ fn matched_length(shape: &[f64], before: usize, rate: f64, most_s: f64) -> usize
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
-    use crate::signal::template::aligned::Aligned;
+    use crate::signal::template::aligned::Cut;
 
     const RATE: f64 = 44_100.0;
 
@@ -131,12 +131,12 @@ mod tests {
         let (before, after) = (samples_in(1e-3, RATE), samples_in(40e-3, RATE));
         let aligned = impacts.iter().map(|&(at_s, amplitude)| {
             let at = samples_in(at_s, RATE);
-            Aligned {
+            Cut {
                 amplitude,
                 sound: sound.between(at - before, at + after).unwrap(),
             }
         });
-        let aligned: Vec<Aligned> = aligned.collect();
+        let aligned: Vec<Cut> = aligned.collect();
         Template::of_aligned(&aligned, before, RATE).unwrap()
     }
 

@@ -11,7 +11,7 @@ const ENERGY_S: f64 = 4e-3;
 
 /// The sound of one impact, cut where it is aligned with others.
 #[derive(Debug, Clone)]
-pub(crate) struct Aligned {
+pub(crate) struct Cut {
     /// Size in units of the template.
     pub amplitude: f64,
     /// All of one length.
@@ -19,12 +19,12 @@ pub(crate) struct Aligned {
 }
 
 /// The sum of the squares of the amplitudes.
-fn power(impacts: &[Aligned]) -> f64 {
+fn power(impacts: &[Cut]) -> f64 {
     impacts.iter().map(|i| i.amplitude * i.amplitude).sum()
 }
 
 /// The mean sound for an amplitude of 1, each impact by its size: `Σ aᵢ·xᵢ / Σ aᵢ²`.
-pub(crate) fn mean(impacts: &[Aligned]) -> Vec<f64> {
+pub(crate) fn mean(impacts: &[Cut]) -> Vec<f64> {
     let mut mean = vec![0.0; impacts.first().map_or(0, |i| i.sound.len())];
     for impact in impacts {
         for (m, x) in mean.iter_mut().zip(&impact.sound) {
@@ -37,7 +37,7 @@ pub(crate) fn mean(impacts: &[Aligned]) -> Vec<f64> {
 }
 
 /// The variance of what two or more impacts leave of their mean at each sample: `Σ (xᵢ − aᵢ·s)² / (n − 1)`.
-fn left_over(impacts: &[Aligned], mean: &[f64]) -> Vec<f64> {
+fn left_over(impacts: &[Cut], mean: &[f64]) -> Vec<f64> {
     let mut left = vec![0.0; mean.len()];
     for impact in impacts {
         for ((l, x), s) in left.iter_mut().zip(&impact.sound).zip(mean) {
@@ -50,7 +50,7 @@ fn left_over(impacts: &[Aligned], mean: &[f64]) -> Vec<f64> {
 impl Template {
     /// The mean of impacts that sound alone, each from `before` samples before its onset on, as far as it stands out of the
     /// noise; none where it does not, and of fewer than two.
-    pub(crate) fn of_aligned(impacts: &[Aligned], before: usize, rate: f64) -> Option<Self> {
+    pub(crate) fn of_aligned(impacts: &[Cut], before: usize, rate: f64) -> Option<Self> {
         if impacts.len() < 2 {
             return None;
         }

@@ -1,5 +1,6 @@
 //! Where a shape fits best among samples.
 
+use super::Prior;
 use crate::signal::correlate::Correlator;
 use crate::signal::interpolate::{KERNEL, maximum};
 use crate::units::real;
@@ -19,18 +20,35 @@ pub(super) struct Fit {
 /// Least energy of a shape where much of it was not recorded, as a share of the greatest.
 const LEAST_ENERGY: f64 = 1e-9;
 
-/// The best place for a shape among samples; `prior` is where it is expected to begin and how surely.
+/// Samples, and the variance of each.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Window<'a> {
+    pub sound: &'a [f64],
+    pub noise: &'a [f64],
+}
+
+/// Where a shape is expected to begin.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Search {
+    pub prior: Prior,
+    /// Farthest from the prior, in samples.
+    pub reach: usize,
+    /// How many times the variance of independent samples that of these is.
+    pub overdispersion: f64,
+}
+
+/// The best place for a shape in a window.
 ///
 /// # Formula
 /// `L(p) = (Σ w·x·s(· − p))²/(2 Σ w·s²(· − p))/scale − (p − prior)²/2σ²`: what a shape of positive amplitude explains,
-/// where what it leaves has the variance `scale`, at least 1, times the number of samples that err alike.
+/// where what it leaves has the variance `scale`, at least 1, times the overdispersion.
 pub(super) fn best(
     correlator: &mut Correlator,
-    (samples, noise): (&[f64], &[f64]),
+    window: Window<'_>,
     shape: &[f64],
-    prior: (f64, f64),
-    (reach, likeness): (usize, f64),
+    search: Search,
 ) -> Option<Fit> {
+    let (samples, noise, prior) = (window.sound, window.noise, search.prior);
     let weighted: Vec<f64> = samples.iter().zip(noise).map(|(x, n)| x / n).collect();
     let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
     let weights: Vec<f64> = noise.iter().map(|n| 1.0 / n).collect();
@@ -59,7 +77,7 @@ pub(super) fn best(
         .zip(&weighted[top..])
         .map(|(x, w)| x * w)
         .sum();
-    let scale = likeness * ((all - 2.0 * explained(top)) / real(shape.len())).max(1.0);
+    let scale = search.overdispersion * ((all - 2.0 * explained(top)) / real(shape.len())).max(1.0);
     let peaks: Vec<(f64, f64, f64)> = inside
         .filter(|&k| {
             explained(k) >= RIVAL * explained(top)
@@ -69,10 +87,10 @@ pub(super) fn best(
         .map(|k| {
             let (position, height) = maximum(&products, k);
             let likelihood = height * height / (2.0 * energies[k]) / scale
-                - 0.5 * ((position - prior.0) / prior.1).powi(2);
+                - 0.5 * ((position - prior.position) / prior.std).powi(2);
             (position, height / energies[k], likelihood)
         })
-        .filter(|(position, ..)| (position - prior.0).abs() <= real(reach))
+        .filter(|(position, ..)| (position - prior.position).abs() <= real(search.reach))
         .collect();
     let &(position, amplitude, likelihood) = peaks.iter().max_by(|a, b| a.2.total_cmp(&b.2))?;
     let shares = peaks.iter().map(|p| ((p.2 - likelihood).exp(), p.0));

@@ -1,7 +1,7 @@
 //! Standard errors that know that neighbouring samples err alike.
 
-use super::Joint;
-use super::settle::Normal;
+use super::normal::Normal;
+use super::settle::Joint;
 use crate::signal::interpolate::slope_gain;
 use crate::signal::template::average::sums;
 use crate::signal::template::{MOST_SHARE, Sample};
@@ -27,7 +27,7 @@ const FAINTEST: f64 = 3.0;
 /// the same pulls make of the noise just before each impact, above what they would make of white noise, is added: hum
 /// and rumble that are left over last longer than a block. All is divided by the [share](known_share) of the slope that is
 /// known.
-pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
+pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
     let samples = heads(joint);
     let judged = judged(joint, &samples);
     let excess = noise_excess(joint, &samples);
@@ -42,21 +42,21 @@ pub(super) fn standard_errors(joint: &Joint) -> Vec<Option<f64>> {
 }
 
 /// How many times more than independent samples those of each impact move its match, in variance; at least 1.
-pub(super) fn likenesses(joint: &Joint) -> Vec<f64> {
+pub(super) fn overdispersions(joint: &Joint<'_>) -> Vec<f64> {
     let judged = judged(joint, &heads(joint));
     let likeness = |i: usize| likeness(&judged, i).max(1.0);
     (0..judged.len()).map(likeness).collect()
 }
 
-fn heads(joint: &Joint) -> Vec<Sample> {
+fn heads(joint: &Joint<'_>) -> Vec<Sample> {
     let length = joint.template.head;
-    (0..joint.impacts.len())
+    (0..joint.places.len())
         .map(|i| joint.sample(i, length))
         .collect()
 }
 
 /// The standard errors of all impacts by independent samples and by blocks.
-fn judged(joint: &Joint, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
+fn judged(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
     let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let template = &joint.template;
     let each = samples.iter().enumerate();
@@ -76,7 +76,7 @@ fn likeness(judged: &[Option<(f64, f64)>], i: usize) -> f64 {
 const STRETCHES: usize = 3;
 
 /// How much more than white noise the noise moves a match: the mean of (Σ h·n)²/Σ h²·noise, less 1.
-fn noise_excess(joint: &Joint, samples: &[Sample]) -> f64 {
+fn noise_excess(joint: &Joint<'_>, samples: &[Sample]) -> f64 {
     let head = joint.template.head;
     let (mut sum, mut count) = (0.0, 0);
     for (i, sample) in samples.iter().enumerate() {

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::random::SplitMix64;
+use crate::units::samples_in;
 
 const RATE: f64 = 44_100.0;
 

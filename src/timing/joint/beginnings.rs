@@ -1,0 +1,114 @@
+//! The beginnings of the sounds, which do not know yet how long a contact lasts.
+
+use super::normal::Normal;
+use super::settle::Joint;
+use crate::signal::interpolate::{KERNEL, shifted, slope};
+use crate::signal::template::aligned::{Cut, mean};
+use crate::units::{real, samples_in};
+
+/// The greatest value is sought this long after the onset, in seconds.
+const PEAK_WITHIN_S: f64 = 2e-3;
+/// A beginning starts so long before the onset, in seconds.
+const LEAD_S: f64 = 0.5e-3;
+/// Rounds in which beginnings settle.
+const ROUNDS: usize = 12;
+
+/// Samples of a beginning before the onset.
+fn lead(joint: &Joint<'_>) -> usize {
+    samples_in(LEAD_S, joint.started.rate).min(joint.template.before)
+}
+
+/// Samples of a beginning that ends at a share of the greatest value.
+pub(super) fn beginning(joint: &Joint<'_>, share: f64) -> Option<usize> {
+    let onset = joint.template.before;
+    let within = samples_in(PEAK_WITHIN_S, joint.started.rate);
+    let mean = joint.template.mean();
+    let near = mean.iter().take(onset + within);
+    let peak = near.fold(0.0, |m: f64, s| m.max(s.abs()));
+    let end = mean.iter().position(|s| s.abs() >= share * peak)? + 1;
+    (end + lead(joint)).checked_sub(onset).filter(|&l| l > 3)
+}
+
+/// The beginnings of all impacts, each matched with the mean of them.
+pub(super) struct Beginnings {
+    /// Each impact's sound, the others taken out, with a margin on both sides.
+    sounds: Vec<Vec<f64>>,
+    /// Where each stands in its sound, and its size.
+    positions: Vec<f64>,
+    amplitudes: Vec<f64>,
+    /// Where it stood first, and in the stretch.
+    first: f64,
+    origins: Vec<f64>,
+    /// Samples of a beginning, before the onset and in all.
+    lead: usize,
+    pub length: usize,
+    /// Standard deviations of the noise by which a beginning has to stand out.
+    clear: f64,
+}
+
+impl Beginnings {
+    pub(super) fn of(joint: &Joint<'_>, share: f64, clear: f64) -> Option<Self> {
+        let lead = lead(joint);
+        let length = beginning(joint, share)?;
+        let margin = samples_in(LEAD_S, joint.started.rate) + KERNEL;
+        let first = real(lead + margin);
+        let sounds = joint.surroundings(lead + margin, length + 2 * margin + KERNEL);
+        Some(Self {
+            positions: vec![first; sounds.len()],
+            amplitudes: joint.places.iter().map(|i| i.amplitude).collect(),
+            origins: joint.places.iter().map(|i| i.position).collect(),
+            sounds,
+            first,
+            lead,
+            length,
+            clear,
+        })
+    }
+
+    /// Positions in the stretch and their standard errors, in samples, of those that are clear.
+    pub(super) fn settled(&mut self) -> Vec<Option<(f64, f64)>> {
+        let noise = vec![1.0; self.length];
+        let mut stds = vec![f64::INFINITY; self.sounds.len()];
+        for _ in 0..ROUNDS {
+            let cuts = self.cuts();
+            let shape = mean(&cuts);
+            let slopes = slope(&shape);
+            let mut moves = Vec::with_capacity(cuts.len());
+            for (i, cut) in cuts.iter().enumerate() {
+                let normal = Normal::of(&cut.sound, &noise, &shape, &slopes);
+                let (amplitude, moved, std) = normal.solve(self.amplitudes[i]);
+                self.amplitudes[i] = amplitude.max(0.3 * self.amplitudes[i]);
+                let is_clear = normal.clearness(amplitude) >= self.clear;
+                stds[i] = if is_clear { std } else { f64::INFINITY };
+                moves.push(moved.clamp(-1.0, 1.0));
+            }
+            let (sum, weight) = moves
+                .iter()
+                .zip(&stds)
+                .fold((0.0, 0.0), |(s, w), (m, std)| {
+                    (s + m / (std * std), w + 1.0 / (std * std))
+                });
+            // What is common to all is not measured by matching one another.
+            let common = if weight > 0.0 { sum / weight } else { 0.0 };
+            for (p, m) in self.positions.iter_mut().zip(&moves) {
+                *p += m - common;
+            }
+        }
+        let moved = self.positions.iter().map(|p| p - self.first);
+        let places = self.origins.iter().zip(moved).map(|(o, m)| o + m);
+        let clear = |(place, std): (f64, f64)| std.is_finite().then_some((place, std));
+        places.zip(stds).map(clear).collect()
+    }
+
+    /// The beginnings where they stand.
+    fn cuts(&self) -> Vec<Cut> {
+        let places = self.sounds.iter().zip(&self.positions);
+        let cuts = places
+            .zip(&self.amplitudes)
+            .map(|((s, p), &amplitude)| Cut {
+                amplitude,
+                sound: shifted(s, p - real(self.lead), self.length + KERNEL),
+            });
+        cuts.collect()
+    }
+}

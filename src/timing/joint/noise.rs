@@ -1,0 +1,135 @@
+//! What else is heard where an impact is: the other impacts, what single impacts differ by, and what nothing explains.
+
+use super::settle::Joint;
+use crate::signal::interpolate::{KERNEL, shifted};
+use crate::signal::smooth::smoothed;
+use crate::signal::template::Sample;
+use crate::units::{real, samples_in, whole};
+
+/// What nothing explains is judged over this time either way, in seconds, and stands out by this factor.
+const KNOCK_S: f64 = 1e-3;
+const KNOCK: f64 = 4.0;
+/// Variance of what was not recorded.
+const UNKNOWN: f64 = 1e30;
+
+impl Joint<'_> {
+    /// The power that nothing explains in the sound of an impact, where it stands out.
+    pub(super) fn knocks_of(&self, i: usize, head: &Sample) -> Vec<f64> {
+        let reach = samples_in(KNOCK_S, self.started.rate);
+        let shape = self.template.shape(i);
+        let left = head
+            .sound
+            .iter()
+            .zip(shape)
+            .map(|(x, s)| (x - head.amplitude * s).powi(2));
+        let known = smoothed(&self.noise(self.begin(i), head.sound.len(), None), reach);
+        let mut knocks = smoothed(&left.collect::<Vec<f64>>(), reach);
+        for (knock, known) in knocks.iter_mut().zip(known) {
+            if *knock < KNOCK * known {
+                *knock = 0.0;
+            }
+        }
+        knocks
+    }
+
+    /// Where the window of an impact begins, in samples of the stretch.
+    pub(super) fn begin(&self, i: usize) -> f64 {
+        self.places[i].position - real(self.template.before)
+    }
+
+    /// Takes the sounds of all other impacts out of samples that begin at a position.
+    pub(super) fn take_out_others(&self, i: usize, begin: f64, samples: &mut [f64]) {
+        for (j, other) in self.places.iter().enumerate() {
+            let offset = begin - self.begin(j);
+            let heard = self.template.sounding_length(other.amplitude);
+            let overlaps = offset < real(heard) && offset + real(samples.len() + KERNEL) > 0.0;
+            if j != i && overlaps {
+                // From its first sample to its last, as far as they are among these.
+                let skip = whole((-offset).floor()).saturating_sub(KERNEL);
+                let last = whole((real(heard) - offset).ceil()).min(samples.len());
+                let (from, count) = (offset + real(skip), last.saturating_sub(skip));
+                let sounding = shifted(self.template.shape(j), from, count);
+                for (x, s) in samples[skip.min(last)..].iter_mut().zip(sounding) {
+                    *x -= other.amplitude * s;
+                }
+            }
+        }
+    }
+
+    /// The sound from so many samples before each impact on, the others taken out.
+    pub(super) fn surroundings(&self, before: usize, length: usize) -> Vec<Vec<f64>> {
+        let around = |i: usize| {
+            let begin = self.places[i].position - real(before);
+            let mut sound = shifted(&self.started.sound, begin, length);
+            self.take_out_others(i, begin, &mut sound);
+            sound
+        };
+        (0..self.places.len()).map(around).collect()
+    }
+
+    /// What all impacts leave of the sound that begins so many samples before the window of an impact, and its variance;
+    /// none where the impact before still rings or nothing was recorded.
+    pub(super) fn before(
+        &self,
+        i: usize,
+        back: f64,
+        length: usize,
+    ) -> Option<(Vec<f64>, Vec<f64>)> {
+        let begin = self.begin(i) - back;
+        let heard = |j: usize| real(self.template.sounding_length(self.places[j].amplitude));
+        let quiet = i
+            .checked_sub(1)
+            .is_none_or(|j| self.begin(j) + heard(j) < begin);
+        if begin < 0.0 || !quiet {
+            return None;
+        }
+        let sound = shifted(&self.started.sound, begin, length);
+        Some((sound, self.noise(begin, length, None)))
+    }
+
+    /// Variance at samples from a position on: noise, and the misfit of all impacts, or of all but one.
+    pub(super) fn noise(&self, begin: f64, length: usize, without: Option<usize>) -> Vec<f64> {
+        let mut noise = vec![UNKNOWN; length];
+        let first = begin.round();
+        let (skip, from) = (whole(-first), whole(first));
+        let recorded = self.started.sound.len().saturating_sub(from);
+        for n in noise.iter_mut().skip(skip).take(recorded) {
+            *n = 1.0;
+        }
+        for (j, other) in self.places.iter().enumerate() {
+            let offset = (begin - self.begin(j)).round();
+            let misfit = &self.template.misfit;
+            if Some(j) == without || offset >= real(misfit.len()) || offset + real(length) <= 0.0 {
+                continue;
+            }
+            let (skip, from) = (whole(-offset), whole(offset));
+            let square = other.amplitude * other.amplitude;
+            for (n, v) in noise[skip..].iter_mut().zip(&misfit[from..]) {
+                *n += square * v;
+            }
+        }
+        noise
+    }
+
+    /// Noise at the samples of an impact, with what nothing explains.
+    pub(super) fn noise_and_knocks(&self, i: usize, length: usize) -> Vec<f64> {
+        let mut noise = self.noise(self.begin(i), length, None);
+        for (n, k) in noise.iter_mut().zip(&self.knocks[i]) {
+            *n += k;
+        }
+        noise
+    }
+
+    /// The sound of an impact as it stands, the others taken out.
+    pub(super) fn sample(&self, i: usize, length: usize) -> Sample {
+        let begin = self.begin(i);
+        let mut sound = shifted(&self.started.sound, begin, length);
+        self.take_out_others(i, begin, &mut sound);
+        Sample {
+            amplitude: self.places[i].amplitude,
+            slowness: self.started.slownesses[i],
+            sound,
+            noise: self.noise_and_knocks(i, length),
+        }
+    }
+}

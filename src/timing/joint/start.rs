@@ -1,0 +1,163 @@
+//! What is known of a drop's impacts before any is matched.
+
+use super::{BEFORE_S, LEAD_S, LONGEST_S, Place, Prior, Timed};
+use crate::signal::interpolate::shifted;
+use crate::signal::template::aligned::{Cut, SHORTEST_S};
+use crate::signal::whiten::Whitened;
+use crate::units::{real, samples_in, whole};
+
+/// Fewest impacts that have something in common.
+const FEWEST: usize = 3;
+/// Impacts are first aligned by this much of their sound at most, in seconds.
+const FIRST_S: f64 = 12e-3;
+/// The detector's times are off by as much as it says, and at least by this share of the sound's period (one standard
+/// deviation) within these bounds in seconds.
+const JITTER_PERIODS: f64 = 0.3;
+const JITTER_S: (f64, f64) = (0.5e-3, 1.5e-3);
+/// Nor is an impact off by more than this share of a flight (one standard deviation): it was found where the flights
+/// before it want it.
+const FLIGHT_SHARE: f64 = 0.05;
+/// Contact of a solid sphere: `ΔT ∝ v^(−1/5)` (Hertz).
+const EXPONENT: f64 = -0.2;
+
+/// The whitened sound around a drop, and where its impacts are expected. Nothing of it changes.
+#[derive(Debug)]
+pub(super) struct Started {
+    pub sound: Vec<f64>,
+    /// Samples per second.
+    pub rate: f64,
+    /// The sample of the recording that the sound begins at.
+    pub first: usize,
+    /// Samples of a template before the onset.
+    pub before: usize,
+    /// Samples after the onset that three impacts at least sound alone, and those that impacts are first aligned by.
+    pub longest: usize,
+    pub head: usize,
+    /// Samples between the detector's times.
+    pub flights: Vec<f64>,
+    /// Where the detector saw each impact.
+    pub priors: Vec<Prior>,
+    /// `(v/v₁)^(−1/5)` less its mean for each impact: how much longer than usual its contact lasts.
+    pub slownesses: Vec<f64>,
+    /// The loudest of the impacts that nothing follows too soon.
+    pub loudest: usize,
+}
+
+impl Started {
+    /// From coarse times in ascending order; none of fewer than three, or where the recording is too short.
+    pub(super) fn of(whitened: &Whitened<'_>, coarse: &[Timed]) -> Option<Self> {
+        if coarse.len() < FEWEST {
+            return None;
+        }
+        let (rate, range) = (whitened.sample_rate_hz(), whitened.range());
+        let (first_s, last_s) = (coarse.first()?.time_s, coarse.last()?.time_s);
+        let first = samples_in(first_s - LEAD_S, rate).max(range.start);
+        let end = samples_in(last_s + LONGEST_S, rate).min(range.end);
+        let sound = whitened.between(first, end)?;
+        let seen = coarse.iter().map(|t| Prior {
+            position: t.time_s * rate - real(first),
+            std: t.std_s * rate,
+        });
+        let mut priors: Vec<Prior> = seen.collect();
+        let pairs = priors.windows(2);
+        let flights: Vec<f64> = pairs.map(|w| w[1].position - w[0].position).collect();
+        let before = samples_in(BEFORE_S, rate);
+        let longest = longest(&flights, rate, before);
+        let head = longest.min(samples_in(FIRST_S, rate));
+        let heads = priors
+            .iter()
+            .map(|prior| shifted(&sound, prior.position - real(before), before + head));
+        let heads: Vec<Vec<f64>> = heads.collect();
+        let loudest = loudest(&heads, &flights, head)?;
+        let jitter = jitter(&heads[loudest], rate);
+        for (i, prior) in priors.iter_mut().enumerate() {
+            prior.std = jitter.max(prior.std).min(farthest(&flights, i));
+        }
+        Some(Self {
+            sound,
+            rate,
+            first,
+            before,
+            longest,
+            head,
+            slownesses: slownesses(&flights),
+            flights,
+            priors,
+            loudest,
+        })
+    }
+
+    /// So many samples after an onset at a position, and those before it.
+    pub(super) fn cut(&self, position: f64, length: usize) -> Vec<f64> {
+        shifted(
+            &self.sound,
+            position - real(self.before),
+            self.before + length,
+        )
+    }
+
+    /// The same of an impact where it stands.
+    pub(super) fn cut_at(&self, place: &Place, length: usize) -> Cut {
+        Cut {
+            amplitude: place.amplitude,
+            sound: self.cut(place.position, length),
+        }
+    }
+
+    /// [`farthest`] for impact `i`.
+    pub(super) fn farthest(&self, i: usize) -> f64 {
+        farthest(&self.flights, i)
+    }
+}
+
+/// Farthest that an impact is from where it was seen, one standard deviation in samples: by the shorter of the flights on both
+/// sides of it.
+fn farthest(flights: &[f64], i: usize) -> f64 {
+    let before = i.checked_sub(1).and_then(|i| flights.get(i));
+    let near = before.into_iter().chain(flights.get(i));
+    FLIGHT_SHARE * near.copied().fold(f64::INFINITY, f64::min)
+}
+
+/// The sound of most energy among those that nothing follows too soon.
+fn loudest(heads: &[Vec<f64>], flights: &[f64], length: usize) -> Option<usize> {
+    let alone = |i: &usize| flights.get(*i).is_none_or(|&f| f > real(length));
+    let energies: Vec<f64> = heads
+        .iter()
+        .map(|h| h.iter().map(|x| x * x).sum())
+        .collect();
+    (0..heads.len())
+        .filter(alone)
+        .max_by(|&a, &b| energies[a].total_cmp(&energies[b]))
+}
+
+/// Samples after the onset that three impacts at least sound alone.
+fn longest(flights: &[f64], rate: f64, before: usize) -> usize {
+    let mut sorted = flights.to_vec();
+    sorted.sort_by(|a, b| b.total_cmp(a));
+    let third = sorted.get(2).or(sorted.last()).copied().unwrap_or(0.0);
+    let alone = whole(0.9 * third - real(before));
+    alone.clamp(samples_in(SHORTEST_S, rate), samples_in(LONGEST_S, rate))
+}
+
+/// How exactly the detector can tell when such a sound begins, in samples.
+fn jitter(sound: &[f64], rate: f64) -> f64 {
+    let energy: f64 = sound.iter().map(|x| x * x).sum();
+    let change: f64 = sound.windows(2).map(|w| (w[1] - w[0]).powi(2)).sum();
+    let period = std::f64::consts::TAU * (energy / change.max(f64::MIN_POSITIVE)).sqrt();
+    (JITTER_PERIODS * period).clamp(JITTER_S.0 * rate, JITTER_S.1 * rate)
+}
+
+/// `(v/v₁)^(−1/5)` less its mean, an impact's speed being that of the flight before it; the first is as much faster than the
+/// second as the second than the third.
+fn slownesses(flights: &[f64]) -> Vec<f64> {
+    let [first, second, ..] = flights else {
+        return vec![0.0; flights.len() + 1];
+    };
+    let before = first * first / second;
+    let speeds = std::iter::once(&before).chain(flights);
+    let slow: Vec<f64> = speeds
+        .map(|flight| (flight / before).powf(EXPONENT))
+        .collect();
+    let mean = slow.iter().sum::<f64>() / real(slow.len());
+    slow.iter().map(|s| s - mean).collect()
+}
