@@ -2,7 +2,7 @@
 
 use crate::linalg::dot;
 use crate::signal::correlate::correlate;
-use crate::signal::interpolate::shifted;
+use crate::signal::interpolate::{shifted, vertex};
 use crate::units::{narrow, real, whole};
 
 /// A sound that is sought, of which only the first samples are matched.
@@ -106,12 +106,7 @@ impl Residue {
         else {
             return 0.0;
         };
-        let curvature = left - 2.0 * middle + right;
-        if curvature < 0.0 {
-            (0.5 * (left - right) / curvature).clamp(-0.5, 0.5)
-        } else {
-            0.0
-        }
+        vertex([left, middle, right]).map_or(0.0, |x| x.clamp(-0.5, 0.5))
     }
 }
 

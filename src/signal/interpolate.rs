@@ -125,13 +125,18 @@ pub fn maximum(values: &[f64], top: usize) -> (f64, f64) {
     for h in PARABOLAS {
         let (x, height) = best;
         let [left, right] = [x - h, x + h].map(|x| interpolated(values, x));
-        let curvature = left - 2.0 * height + right;
-        if curvature < 0.0 {
-            let moved = (0.5 * (left - right) / curvature).clamp(-1.0, 1.0);
-            best = higher(values, best, x + h * moved);
+        if let Some(moved) = vertex([left, height, right]) {
+            best = higher(values, best, x + h * moved.clamp(-1.0, 1.0));
         }
     }
     best
+}
+
+/// Where the parabola through three values a step apart is highest, in steps from the middle one:
+/// `½·(y₋ − y₊)/(y₋ − 2y + y₊)`; none where it has no top.
+pub(crate) fn vertex([left, middle, right]: [f64; 3]) -> Option<f64> {
+    let curvature = left - 2.0 * middle + right;
+    (curvature < 0.0).then(|| 0.5 * (left - right) / curvature)
 }
 
 /// A place and its height, or another one if that is higher.
@@ -213,6 +218,15 @@ mod tests {
         let squares: f64 = slope(&noise).iter().map(|s| s * s).sum();
         // A sum of so many squares scatters by a hundredth, neighbours being alike.
         assert!((squares / 20_000.0 / slope_gain() - 1.0).abs() < 0.05);
+    }
+
+    #[test]
+    fn a_vertex_is_that_of_the_parabola() {
+        let parabola = |x: f64| 3.0 - 0.7 * (x - 0.3).powi(2);
+        let top = vertex([-1.0, 0.0, 1.0].map(parabola)).unwrap();
+        assert!((top - 0.3).abs() < 1e-14);
+        assert_eq!(vertex([1.0, 0.0, 1.0]), None);
+        assert_eq!(vertex([0.0, 1.0, 2.0]), None);
     }
 
     #[test]
