@@ -102,3 +102,72 @@ pub(super) fn best(
         doubt: (spread.sum::<f64>() / total).sqrt(),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linalg::dot;
+    use crate::random::SplitMix64;
+    use crate::signal::interpolate::shifted;
+
+    /// What a shape explains and its amplitude at every hundredth of a sample, by the definition; the best place of all.
+    fn searched(sound: &[f64], shape: &[f64], prior: Prior, scale: f64) -> (f64, f64) {
+        let last = sound.len() - shape.len() - KERNEL;
+        let places = (100 * KERNEL..100 * last).map(|k| 0.01 * real(k));
+        let energy = dot(shape, shape);
+        let each = places.map(|p| {
+            let product = dot(&shifted(sound, p, shape.len()), shape).max(0.0);
+            let far = (p - prior.position) / prior.std;
+            (
+                product * product / (2.0 * energy * scale) - 0.5 * far * far,
+                p,
+                product / energy,
+            )
+        });
+        let best = each.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap();
+        (best.1, best.2)
+    }
+
+    #[test]
+    fn the_best_place_is_that_of_a_search_of_all() {
+        let mut rng = SplitMix64::new(6);
+        let ring = |t: f64| {
+            if t > 0.0 {
+                t.powi(2) * (-t / 9.0).exp() * (0.5 * t).sin()
+            } else {
+                0.0
+            }
+        };
+        let shape: Vec<f64> = (0..80).map(|i| ring(real(i) - 10.0)).collect();
+        for (place, std) in [(60.3, 5.0), (75.81, 20.0), (52.5, 8.0)] {
+            let at = |i: usize| 0.4 * ring(real(i) - 10.0 - place) + rng.normal();
+            let sound: Vec<f64> = (0..200).map(at).collect();
+            let prior = Prior {
+                position: 60.0,
+                std,
+            };
+            let (position, amplitude) = searched(&sound, &shape, prior, 1.0);
+            let window = Window {
+                noise: &vec![1.0; sound.len()],
+                sound: &sound,
+            };
+            let search = Search {
+                prior,
+                reach: 100,
+                overdispersion: 1.0,
+            };
+            let fit = best(&mut Correlator::default(), window, &shape, search).unwrap();
+            assert!(
+                (fit.position - position).abs() < 0.05,
+                "{} {position}",
+                fit.position
+            );
+            assert!((fit.amplitude / amplitude - 1.0).abs() < 0.01);
+            assert!(
+                (fit.position - place).abs() < 0.3,
+                "{} {place}",
+                fit.position
+            );
+        }
+    }
+}
