@@ -9,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What each folder must not name. Arrows: units, statistics, physics, audio ← detect, sequence, fit ← report ← analysis, evaluate, picture ← cli.
-const FORBIDDEN: [(&str, &[&str]); 17] = [
+const FORBIDDEN: [(&str, &[&str]); 18] = [
     (
         "physics",
         &[
@@ -106,6 +106,13 @@ const FORBIDDEN: [(&str, &[&str]); 17] = [
         &[
             "physics", "detect", "sequence", "fit", "audio", "report", "analysis", "synth",
             "evaluate", "cli",
+        ],
+    ),
+    (
+        "linalg.rs",
+        &[
+            "physics", "signal", "detect", "sequence", "timing", "fit", "audio", "report",
+            "analysis", "synth", "evaluate", "cli",
         ],
     ),
     (
