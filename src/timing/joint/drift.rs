@@ -34,6 +34,19 @@ impl Late {
             .sqrt()
     }
 
+    /// How far its terms are from those of another at most, in its own standard errors.
+    fn moved_from(&self, other: &Self) -> f64 {
+        let moved = (0..2).map(|k| {
+            let moved = (self.terms[k] - other.terms[k]).abs();
+            if moved > 0.0 {
+                moved / self.covariance[k][k].sqrt()
+            } else {
+                0.0
+            }
+        });
+        moved.fold(0.0, f64::max)
+    }
+
     /// From the fastest to the slowest impact: the shift and its standard error.
     fn whole(&self, (fast, slow): (f64, f64)) -> (f64, f64) {
         let shift = self.shift(slow) - self.shift(fast);
@@ -56,8 +69,10 @@ const SIGNIFICANT: f64 = 4.0;
 const AGREEING: f64 = 3.0;
 /// Beginnings of single impacts scatter by this at least, in seconds: modes do not begin quite alike.
 const SCATTER_S: f64 = 3e-6;
-/// Rounds of robust averaging.
-const AVERAGINGS: usize = 10;
+/// Averaging ends once the curve moves by no more than this share of its own standard error …
+const REST: f64 = 0.05;
+/// … or after so many rounds: five times as many as were seen, on the suite and on real recordings.
+const LIMIT: usize = 100;
 
 /// Rounds of all times before a drift is looked for, and after one is seen.
 const FIRST_ROUNDS: usize = 3;
@@ -155,14 +170,25 @@ fn drift(joint: &Joint<'_>, begins: &[Option<(f64, f64)>]) -> Option<Late> {
         return None;
     }
     let terms = joint.template.components.len().max(2);
+    average(&values, terms, LIMIT)
+}
+
+/// The curve through all values, each weighed anew by how far off it lies until the curve rests: Cauchy's weights, for three
+/// robust standard deviations.
+fn average(values: &[Value], terms: usize, limit: usize) -> Option<Late> {
     let mut weights: Vec<f64> = values.iter().map(|v| 1.0 / (v.std * v.std)).collect();
-    let mut drift = None;
-    for _ in 0..AVERAGINGS {
-        let curve = Curve::through(&values, &weights, terms)?;
+    let mut drift: Option<Late> = None;
+    for _ in 0..limit {
+        let curve = Curve::through(values, &weights, terms)?;
         let off = |v: &Value| (v.late - curve.at(v.slowness)) / v.std;
         let scale = (MAD_TO_STD * upper_median(values.iter().map(|v| off(v).abs()))?).max(1.0);
-        drift = Some(curve.late(scale));
-        for (w, v) in weights.iter_mut().zip(&values) {
+        let late = curve.late(scale);
+        let rests = drift.is_some_and(|before| late.moved_from(&before) < REST);
+        drift = Some(late);
+        if rests {
+            break;
+        }
+        for (w, v) in weights.iter_mut().zip(values) {
             *w = 1.0 / (v.std * v.std * (1.0 + (off(v) / (3.0 * scale)).powi(2)));
         }
     }
@@ -213,6 +239,36 @@ impl Curve {
         Late {
             terms: [self.coefficients[1], self.coefficients[2]],
             covariance: [[c(1, 1), c(1, 2)], [c(2, 1), c(2, 2)]],
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::SplitMix64;
+    use crate::units::real;
+
+    #[test]
+    fn the_curve_rests_on_the_most_whatever_lies_far_off_and_twice_the_limit_changes_nothing() {
+        let mut rng = SplitMix64::new(5);
+        for terms in [2, 3] {
+            let values = (0..40).map(|i| {
+                let slowness = 0.02 * real(i) - 0.4;
+                let off = if i % 8 == 0 { 60.0 } else { 0.0 };
+                let late = 2.0 - 9.0 * slowness + 0.5 * rng.normal() + off;
+                Value {
+                    slowness,
+                    late,
+                    std: 0.5,
+                }
+            });
+            let values: Vec<Value> = values.collect();
+            let late = average(&values, terms, LIMIT).unwrap();
+            let (slope, std) = (late.terms[0], late.covariance[0][0].sqrt());
+            assert!((slope + 9.0).abs() < 3.0 * std, "{slope} ± {std}");
+            let longer = average(&values, terms, 2 * LIMIT).unwrap();
+            assert_eq!(late.terms, longer.terms);
         }
     }
 }

@@ -5,13 +5,17 @@
 //! x(t) = Σ_i a_i·s_i(t − τ_i) + noise,      s_i(t) = S₀(t) + u_i·S₁(t) + u_i²·S₂(t)
 //! ```
 //! x is the whitened recording; S₀ is what all impacts share, ring and echo included. Impacts are not quite alike: at
-//! each moment after its onset an impact of amplitude a differs from the [template] by a²·v(t) in variance, learnt from
-//! what is left over. That, and the same of all others that still sound, is added to the noise, so each sample counts
-//! by what it knows. Template and times are [settled](settle) in turn, impact after impact. [`align`] finds the start.
+//! each moment after its onset an impact of amplitude a differs from the [template](crate::signal::template) by a²·v(t)
+//! in variance, learnt from what is left over. That, and the same of all others that still sound, is added to the noise, so
+//! each sample counts by what it knows.
 //!
 //! Where slow impacts last longer than fast ones, a match is late for them by half of what the contact takes longer.
 //! The [beginning](drift) of the sound does not know yet how long the contact will last and gives that away; S₁, S₂
 //! with `u = (v/v₁)^(−1/5)` (Hertz) are used in that case alone.
+//!
+//! # Phases
+//! [`Started`] holds what is known before any impact is matched, [`Aligned`] the impacts in their first alignment,
+//! [`Joint`](settle::Joint) settles template and times in turn, impact after impact, [`Followed`] holds them settled.
 
 mod align;
 mod beginnings;
