@@ -72,5 +72,6 @@ pub mod statistics;
 pub mod synth;
 pub mod timing;
 pub mod units;
+mod words;
 
 pub use error::Error;

@@ -53,7 +53,7 @@ const FORBIDDEN: [(&str, &[&str]); 17] = [
     (
         "report",
         &[
-            "physics", "sequence", "audio", "analysis", "rules", "synth", "evaluate", "cli",
+            "sequence", "audio", "analysis", "rules", "synth", "evaluate", "cli",
         ],
     ),
     (

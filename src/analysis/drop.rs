@@ -8,7 +8,7 @@ use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
-use crate::report::{Drop, Estimates, Impact, Scatter, Status, Warning};
+use crate::report::{Drop, Estimates, Impact, Scatter, Status, Warning, WarningCode};
 use crate::sequence::{Chain, Link};
 use crate::statistics::upper_median;
 use crate::timing::Timing;
@@ -32,7 +32,7 @@ impl Measured {
             drop.total_time_s = None;
             (drop.estimates.eq25, drop.estimates.eq30) = (None, None);
             // That the recording ends early says it all.
-            drop.warnings.retain(|w| w.code != "ended_early");
+            drop.warnings.retain(|w| w.code != WarningCode::EndedEarly);
             drop.warnings.push(cut);
             agreement = agreement.map(Agreement::without_end);
         }

@@ -120,6 +120,7 @@ impl Findings {
 mod tests {
     use super::*;
     use crate::analysis::{Settings, analyze};
+    use crate::report::WarningCode;
 
     /// A drop of eight clicks at 8 kHz that begins after some seconds, in silence.
     fn clicks(start_s: f64, first_flight_s: f64) -> Vec<f32> {
@@ -148,6 +149,6 @@ mod tests {
         let (_, analysis) = findings.analysis(20.0);
         let left: Vec<f64> = analysis.drops.iter().map(|d| d.evidence_nats).collect();
         assert_eq!(left, [30.0, 40.0]);
-        assert_eq!(analysis.warnings[0].code, "left_out");
+        assert_eq!(analysis.warnings[0].code, WarningCode::LeftOut);
     }
 }

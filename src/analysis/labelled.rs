@@ -5,7 +5,7 @@ use super::{Settings, Stretch};
 use crate::Error;
 use crate::fit::flights::Impact as Timed;
 use crate::report::labels::Marked;
-use crate::report::{Analysis, Status, Warning};
+use crate::report::{Analysis, Status, Warning, WarningCode};
 use crate::sequence::{Chain, Link};
 use crate::units::real;
 
@@ -121,7 +121,7 @@ fn note(marked: &[Marked]) -> Warning {
         "the impacts are those of the labels: {by_hand} of {} set or moved by hand",
         marked.len()
     );
-    Warning::new("impacts_given", message)
+    Warning::new(WarningCode::ImpactsGiven, message)
 }
 
 /// By how much the impacts are louder than the channel at large: the mean of ln(peak/rms).

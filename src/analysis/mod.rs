@@ -21,7 +21,7 @@ use std::ops::RangeInclusive;
 use crate::Error;
 use crate::detect::{self, Candidate};
 use crate::fit::ladder;
-use crate::report::{Analysis, Rejected, SettingsInfo};
+use crate::report::{Analysis, RejectReason, Rejected, SettingsInfo};
 use crate::sequence::{self, Chain, Event, Reason};
 use crate::timing::{Timed, Timing, refine};
 use crate::units::{real, samples_in};
@@ -219,25 +219,25 @@ pub fn analyze_clearest<C: AsRef<[f32]>>(
 fn rejected(event: &sequence::Rejected) -> Rejected {
     let (reason, detail) = match event.reason {
         Reason::Echo { delay_s } => (
-            "echo",
+            RejectReason::Echo,
             format!(
                 "follows many impacts by {:.1} ms: an echo or a part of their sound",
                 1e3 * delay_s
             ),
         ),
         Reason::Near { offset_s } if offset_s < 0.0 => {
-            ("near_impact", "just before an impact".to_owned())
+            (RejectReason::NearImpact, "just before an impact".to_owned())
         }
         Reason::Near { .. } => (
-            "near_impact",
+            RejectReason::NearImpact,
             "within 5 ms after an impact: its own sound".to_owned(),
         ),
         Reason::BetweenImpacts => (
-            "off_sequence",
+            RejectReason::OffSequence,
             "between two impacts, where no flight ends".to_owned(),
         ),
         Reason::NoSequence => (
-            "no_sequence",
+            RejectReason::NoSequence,
             "belongs to no sequence of shrinking flights".to_owned(),
         ),
     };

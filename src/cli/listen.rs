@@ -180,7 +180,8 @@ impl Listening {
             drop.channel += heard.start;
         }
         let repairs = ending.warnings.into_iter();
-        let repairs = repairs.map(|message| report::Warning::new("repaired", message));
+        let repairs =
+            repairs.map(|message| report::Warning::new(report::WarningCode::Repaired, message));
         analysis.warnings.extend(repairs);
         analysis.warnings.extend(lossy.then(|| of_lossy(&encoding)));
         Ok(Report {
@@ -226,7 +227,7 @@ fn of_lossy(encoding: &str) -> report::Warning {
         "the recording is compressed with loss ({encoding}), which may move an impact by 0.01 ms, by 2 ms where there is \
          noise, and swallow faint ones: e may be off by more than its error says. Record WAV, FLAC or ALAC"
     );
-    report::Warning::new("lossy", message)
+    report::Warning::new(report::WarningCode::Lossy, message)
 }
 
 /// The name of a file in a document: as it is, but for bytes that are no UTF-8, which are written as `\xFF`.

@@ -2,13 +2,14 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::bounces::{Bounces, Known, Terms};
+use super::bounces::{Bounces, Terms};
 use super::flights::Impact;
 use super::least_squares::Prior;
 use super::noise::Noise;
 use super::posterior::Posterior;
 use super::state::State;
 use super::stray::{self, Strays};
+use crate::physics::priors::Known;
 
 /// Fewest impacts with a ratio of flights.
 const FEWEST: usize = 3;
@@ -53,7 +54,8 @@ pub struct Parameter {
 }
 
 /// Shares of the variance of ln e by cause; together 1.
-#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct Budget {
     /// By the errors of the times.
     pub timing: f64,

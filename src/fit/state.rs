@@ -1,10 +1,11 @@
 //! A trial of times and parameters, settled by rounds of linear fits.
 
-use super::bounces::{Bounces, Known, Law, Terms, Values};
+use super::bounces::{Bounces, Law, Terms, Values};
 use super::flights::Impact;
 use super::least_squares::{Prior, Solution};
 use super::noise::{Noise, Sizes};
 use super::posterior::likeliest;
+use crate::physics::priors::Known;
 use crate::statistics::upper_median;
 
 /// Rounds in which the model is made linear anew around the times and parameters found.

@@ -130,13 +130,13 @@ fn measured(drop: &Drop, of_recording: &[Warning]) -> Vec<String> {
     let estimates = &drop.estimates;
     let ball = drop.ball.as_ref();
     let warnings = drop.warnings.iter().chain(of_recording);
-    let warnings: Vec<&str> = warnings.map(|w| w.code).collect();
+    let warnings: Vec<&str> = warnings.map(|w| w.code.word()).collect();
     let mut cells = Vec::from(with_std(e.map(|e| e.estimate)));
     cells.extend([
         cell(interval.map(|i| i[0])),
         cell(interval.map(|i| i[1])),
         cell(e.and_then(|e| e.at_speed_m_per_s)),
-        drop.model.selected.to_owned(),
+        drop.model.selected.to_string(),
         drop.bounces.to_string(),
         cell(drop.impacts.first().map(|i| i.time_s)),
         drop.observed_time_s.to_string(),

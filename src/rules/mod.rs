@@ -44,8 +44,8 @@ pub fn judge(
         rebounds().fold(f64::NEG_INFINITY, f64::max),
     );
     Ok(RuleReport {
-        name: rule.name,
-        source: rule.source,
+        name: rule.name.to_owned(),
+        source: rule.source.to_owned(),
         drop_height_m: rule.drop_height_m,
         allowed_m: rule.allowed_m,
         mass_kg: ball.mass_kg,

@@ -1,6 +1,9 @@
 //! What is known of the next flight, given the flights so far.
 
 use super::Settings;
+use crate::physics::priors::{
+    Known, LN_RESTITUTION, TRACKED_BOUNCE_STDS, TRACKED_CONTACT_S, TRACKED_DRAG_PER_S2,
+};
 use crate::units::real;
 
 /// A line for ln of the flights' ratios, kept as a Kalman filter of three states with its own scatter.
@@ -33,18 +36,20 @@ pub struct Doubt {
     /// How far off the times may be, in seconds.
     pub jitter_s: f64,
 }
-/// ρ before any flight is known: e about 0.82, and with a spread that covers 0.35 to 0.99.
-const RHO: (f64, f64) = (-0.2, 0.35);
-/// κ before any flight is known, s⁻²: from none to twice that of a ping-pong ball.
-const KAPPA: (f64, f64) = (0.05, 0.1);
-/// C before any flight is known, s: from none to the contact of a basketball.
-const CONTACT_S: (f64, f64) = (0.5e-3, 1.5e-3);
+
+/// ρ, κ = K/8 and C before any flight is known.
+const PRIOR: [Known; STATES] = [
+    LN_RESTITUTION,
+    Known {
+        value: TRACKED_DRAG_PER_S2.value / 8.0,
+        std: TRACKED_DRAG_PER_S2.std / 8.0,
+    },
+    TRACKED_CONTACT_S,
+];
 /// How much ln e wanders from one bounce to the next.
 const WANDER: f64 = 3e-3;
 /// Share of the newest bounce in the scatter: a memory of the last four or five.
 const NEWEST_SHARE: f64 = 0.2;
-/// Range of the scatter that is believed: a few flights may agree by chance, and what scatters more is no ball.
-const SCATTER: (f64, f64) = (3e-3, 0.05);
 /// A match farther off than this many standard deviations is none.
 pub(super) const GATE: f64 = 6.0;
 
@@ -83,11 +88,11 @@ impl FlightLaw {
     #[must_use]
     pub fn prior(settings: &Settings) -> Self {
         let mut covariance = [[0.0; STATES]; STATES];
-        for (i, (_, sd)) in [RHO, KAPPA, CONTACT_S].into_iter().enumerate() {
-            covariance[i][i] = sd * sd;
+        for (i, known) in PRIOR.into_iter().enumerate() {
+            covariance[i][i] = known.std * known.std;
         }
         Self {
-            state: [RHO.0, KAPPA.0, CONTACT_S.0],
+            state: PRIOR.map(|known| known.value),
             covariance,
             scatter: settings.bounce_scatter,
         }
@@ -164,7 +169,9 @@ impl FlightLaw {
         // Of the deviation, the bounce owns the share that its variance has.
         let own = squared * expected.scatter / expected.variance();
         let scatter = (1.0 - NEWEST_SHARE) * self.scatter * self.scatter + NEWEST_SHARE * own;
-        self.scatter = scatter.sqrt().clamp(SCATTER.0, SCATTER.1);
+        self.scatter = scatter
+            .sqrt()
+            .clamp(TRACKED_BOUNCE_STDS.0, TRACKED_BOUNCE_STDS.1);
     }
 
     /// How ln(T'/T) depends on ρ, κ and C.

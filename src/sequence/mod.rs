@@ -16,6 +16,7 @@ pub use drops::{Chain, Found, Link, find, follow_again};
 pub use reasons::{Reason, Rejected, is_echo_of};
 
 use crate::Error;
+use crate::physics::priors::TRACKED_BOUNCE_STD;
 
 /// What is known of balls before listening. Defaults suit drops from centimetres to metres.
 #[derive(Debug, Clone)]
@@ -38,7 +39,7 @@ impl Default for Settings {
         Self {
             longest_flight_s: 2.0,
             shortest_flight_s: 4e-3,
-            bounce_scatter: 0.01,
+            bounce_scatter: TRACKED_BOUNCE_STD,
 
             least_evidence: 12.0,
         }

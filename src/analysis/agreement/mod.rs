@@ -6,7 +6,7 @@ use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::physics::FlightLaw;
-use crate::report::{Estimates, Warning};
+use crate::report::{Estimates, Warning, WarningCode};
 
 /// Two values disagree that differ by more than this many standard deviations of their difference: 1 in 100 by chance.
 /// The errors count as independent; the scatter that estimates share makes that cautious.
@@ -74,13 +74,13 @@ enum Cause {
 }
 
 impl Cause {
-    /// The word for programs.
-    const fn code(self) -> &'static str {
+    /// What the warning is about.
+    const fn code(self) -> WarningCode {
         match self {
-            Self::Drag => "air_drag",
-            Self::HeightTooSmall | Self::HeightTooLarge => "wrong_height",
-            Self::Unheard => "bounces_unheard",
-            Self::NotKnown => "estimates_disagree",
+            Self::Drag => WarningCode::AirDrag,
+            Self::HeightTooSmall | Self::HeightTooLarge => WarningCode::WrongHeight,
+            Self::Unheard => WarningCode::BouncesUnheard,
+            Self::NotKnown => WarningCode::EstimatesDisagree,
         }
     }
 }

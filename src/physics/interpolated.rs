@@ -1,10 +1,10 @@
-//! What its weight does to a linear ball: the slower the impact, the longer the contact and the smaller e.
+//! The exact contact of a linear ball at a few speeds, interpolated: a fast form of [`LinearContact`] with derivatives.
 //!
-//! Both depend on `s = ΔT/T` alone, ΔT the contact time of a fast impact and `T = 2v/g` the flight that has its speed, and
-//! on e of a fast impact. They are found by the exact contact ([`LinearContact`]) at a few s and interpolated: to first
-//! order `ln e(s) = ln e₀ − s·4ζ√(1 − ζ²)·(1 + e₀)/(π·e₀)`.
+//! By its weight slow impacts of such a ball last longer and lose more. Both depend on `s = ΔT/T` alone, ΔT the contact time
+//! of a fast impact and `T = 2v/g` the flight that has its speed, and on e of a fast impact: to first order
+//! `ln e(s) = ln e₀ − s·4ζ√(1 − ζ²)·(1 + e₀)/(π·e₀)`.
 
-use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
+use super::{LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
 use crate::units::real;
 
 /// Places at which the contact is solved: up to `s = ½` the rest is below 1e-6 of ln e.
@@ -14,26 +14,26 @@ const LEAST_SHARE: f64 = 0.01;
 
 /// The effect of the weight on one impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Effect {
+pub(crate) struct WeightEffect {
     /// `ln(e/e₀)`, and its derivative by s.
     pub loss: (f64, f64),
     /// Contact time over that of a fast impact, and its derivative by s.
     pub longer: (f64, f64),
 }
 
-/// The effect of the weight on impacts of a ball.
+/// The effect of the weight on the impacts of a ball.
 #[derive(Debug, Clone)]
-pub(super) struct Weight {
+pub(crate) struct InterpolatedContact {
     nodes: [f64; NODES],
     /// Divided differences of `ln(e/e₀)/s` and of `(ΔT(s)/ΔT − 1)/s`.
     loss: [f64; NODES],
     longer: [f64; NODES],
 }
 
-impl Weight {
+impl InterpolatedContact {
     /// For a ball of `ln e₀` and s from 0 to `greatest`. None if e₀ is not between 0 and 1, or the ball does not leave at
     /// the greatest s.
-    pub(super) fn of(ln_restitution: f64, greatest: f64) -> Option<Self> {
+    pub(crate) fn of(ln_restitution: f64, greatest: f64) -> Option<Self> {
         let restitution = Restitution::from_ln(ln_restitution).ok()?;
         // A unit of time is ΔT, and g = 2: then v = T.
         let ball = Oscillator::from_contact(restitution, 1.0).ok()?;
@@ -58,13 +58,13 @@ impl Weight {
     }
 
     /// The effect on an impact of this s.
-    pub(super) fn at(&self, s: f64) -> Effect {
+    pub(crate) fn at(&self, s: f64) -> WeightEffect {
         let times_s = |differences: &[f64; NODES]| {
             let (value, slope) = newton(&self.nodes, differences, s);
             (s * value, value + s * slope)
         };
         let (longer, slope) = times_s(&self.longer);
-        Effect {
+        WeightEffect {
             loss: times_s(&self.loss),
             longer: (1.0 + longer, slope),
         }
@@ -96,7 +96,7 @@ mod tests {
     #[test]
     fn between_the_nodes_it_is_the_exact_contact() {
         for (e, greatest) in [(0.5_f64, 0.3), (0.75, 0.4), (0.93, 0.5), (0.99, 0.02)] {
-            let weight = Weight::of(e.ln(), greatest).unwrap();
+            let weight = InterpolatedContact::of(e.ln(), greatest).unwrap();
             let ball = Oscillator::from_contact(Restitution::new(e).unwrap(), 2e-3).unwrap();
             let contact = LinearContact::new(ball, 9.81, ReleaseRule::ZeroDisplacement).unwrap();
             for share in [0.01, 0.1, 0.37, 0.8, 0.99] {
@@ -122,13 +122,17 @@ mod tests {
         let zeta = -e.ln() / std::f64::consts::PI.hypot(e.ln());
         let first =
             4.0 * zeta * (1.0 - zeta * zeta).sqrt() * (1.0 + e) / (std::f64::consts::PI * e);
-        let loss = Weight::of(e.ln(), 0.1).unwrap().at(1e-4).loss.0;
+        let loss = InterpolatedContact::of(e.ln(), 0.1)
+            .unwrap()
+            .at(1e-4)
+            .loss
+            .0;
         assert!((loss / (-1e-4 * first) - 1.0).abs() < 1e-3);
     }
 
     #[test]
     fn a_ball_that_does_not_leave_has_no_such_effect() {
-        assert!(Weight::of(0.5_f64.ln(), 2.0).is_none());
-        assert!(Weight::of(0.1, 0.1).is_none());
+        assert!(InterpolatedContact::of(0.5_f64.ln(), 2.0).is_none());
+        assert!(InterpolatedContact::of(0.1, 0.1).is_none());
     }
 }
