@@ -6,13 +6,12 @@
 )]
 
 use bounce_audio::analysis::{Settings, analyze};
-use bounce_audio::fit::ladder::Choice;
 use bounce_audio::picture::batch::{self, BatchRow};
 use bounce_audio::picture::sheet::sheets;
 use bounce_audio::picture::sound::Sound;
 use bounce_audio::picture::total_time::{self, Point};
 use bounce_audio::plot::{Figure, to_png, to_svg};
-use bounce_audio::report::{RecordingInfo, Report, SettingsInfo, Status};
+use bounce_audio::report::{RecordingInfo, Report, Status};
 
 const RATE: f64 = 8_000.0;
 
@@ -35,30 +34,15 @@ fn clicks(first_flight_s: f64, e: f64, impacts: u32) -> Vec<f32> {
 
 fn report(samples: &[f32]) -> Report {
     let settings = Settings::default();
-    Report {
-        schema_version: 1,
-        file: "clicks.wav".to_owned(),
-        recording: RecordingInfo {
-            sample_rate_hz: RATE,
-            channels: 1,
-            channel: 1,
-            duration_s: 8.0,
-            encoding: "made here".to_owned(),
-        },
-        settings: SettingsInfo {
-            height_m: None,
-            height_std_m: 1e-3,
-            gravity_m_per_s2: settings.gravity_m_per_s2,
-            mass_kg: None,
-            diameter_m: None,
-            contact_time_s: None,
-            model: Choice::Auto,
-            start_s: None,
-            end_s: None,
-            timing: settings.timing,
-        },
-        analysis: analyze(samples, RATE, &settings).unwrap(),
-    }
+    let recording = RecordingInfo {
+        sample_rate_hz: RATE,
+        channels: 1,
+        channel: 1,
+        duration_s: 8.0,
+        encoding: "made here".to_owned(),
+    };
+    let analysis = analyze(samples, RATE, &settings).unwrap();
+    Report::new("clicks.wav".to_owned(), recording, settings, analysis)
 }
 
 /// The sheets of a report on these samples, heard in blocks.
@@ -146,7 +130,7 @@ const BLUE: &str = "#0072B2";
 fn a_sheet_has_a_mark_for_each_impact_and_for_all_that_follows_from_it() {
     let samples = clicks(0.5, 0.85, 20);
     let report = report(&samples);
-    let drop = &report.analysis.drops[0];
+    let drop = &report.drops[0];
     assert!(drop.impacts.iter().all(|i| i.status == Status::Heard));
     let impacts = drop.impacts.len();
     assert!(impacts >= 18, "{impacts}");
@@ -177,7 +161,7 @@ fn a_sheet_has_a_mark_for_each_impact_and_for_all_that_follows_from_it() {
 fn a_hundred_and_more_impacts_are_numbered_as_far_as_there_is_room() {
     let samples = clicks(0.2, 0.97, 110);
     let report = report(&samples);
-    assert!(report.analysis.drops[0].impacts.len() > 90);
+    assert!(report.drops[0].impacts.len() > 90);
     let svg = svg(&drawn(&report, &samples));
     let numbers = texts(&svg);
     let numbers = numbers
@@ -206,13 +190,13 @@ fn without_a_drop_there_is_the_level_with_what_was_rejected() {
         samples[at] = 0.5;
     }
     let mut report = report(&samples);
-    assert!(report.analysis.drops.is_empty());
+    assert!(report.drops.is_empty());
     report.file = "a\u{7}<b>&.wav".to_owned();
     let svg = svg(&drawn(&report, &samples));
     assert!(svg.contains("a?&lt;b&gt;&amp;.wav: no drop found") && svg.contains("rejected"));
     // Silence has no level at all.
     let silence = vec![0.0_f32; 64_000];
-    report.analysis.rejected.clear();
+    report.rejected.clear();
     assert!(!self::svg(&drawn(&report, &silence)).contains("rejected"));
 }
 
@@ -220,7 +204,7 @@ fn without_a_drop_there_is_the_level_with_what_was_rejected() {
 fn three_impacts_without_any_error_make_a_sheet_too() {
     let samples = clicks(0.5, 0.8, 12);
     let mut report = report(&samples);
-    let drop = &mut report.analysis.drops[0];
+    let drop = &mut report.drops[0];
     drop.impacts.truncate(3);
     drop.bounces = 3;
     drop.impacts[2].interval_s = None;
@@ -237,7 +221,7 @@ fn three_impacts_without_any_error_make_a_sheet_too() {
     let one = svg(&drawn(&report, &samples));
     assert!(one.contains("no error: a single ratio") && one.contains("Impact 3: "));
     // Nor does a drop need an e, or impacts that were heard.
-    let drop = &mut report.analysis.drops[0];
+    let drop = &mut report.drops[0];
     drop.restitution = None;
     drop.impacts[1].status = Status::Inferred;
     for impact in &mut drop.impacts {
@@ -253,8 +237,8 @@ fn a_long_name_is_shortened_and_each_of_several_drops_has_its_sheet() {
     let samples = clicks(0.5, 0.8, 12);
     let mut report = report(&samples);
     report.file = format!("{}end.wav", "a/long/way/".repeat(30));
-    let again = report.analysis.drops[0].clone();
-    report.analysis.drops.push(again);
+    let again = report.drops[0].clone();
+    report.drops.push(again);
     let figures = drawn(&report, &samples);
     assert_eq!(figures.len(), 2);
     for (figure, which) in figures.iter().zip(["drop 1 of 2", "drop 2 of 2"]) {

@@ -1,7 +1,6 @@
 //! From the times of a drop to its restitution and its ball, by the model that the recording supports.
 
 use super::Settings;
-use super::bounce::Corrections;
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::Impact;
@@ -9,8 +8,8 @@ use crate::fit::ladder::{Climb, Inputs, climb};
 use crate::fit::model::{Budget, Parameter};
 use crate::physics::priors::{CONTACT_RELATIVE_STD, Known};
 use crate::physics::{
-    Air, ContactErrors, DRAG_RELATIVE_STD, FlightLaw, Oscillator, ParameterErrors, ReleaseRule,
-    Restitution as Ratio, Sphere,
+    Air, BallModel, ContactErrors, DRAG_RELATIVE_STD, FlightLaw, Oscillator, ParameterErrors,
+    ReleaseRule, Restitution as Ratio, Sphere,
 };
 use crate::report::{
     Ball, ContactSource, Given, Method, Model, Parameters, Restitution, Warning, WarningCode,
@@ -42,12 +41,14 @@ pub(super) fn law(settings: &Settings) -> Result<Option<FlightLaw>, Error> {
 }
 
 /// The restitution of a drop and what hangs on it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Modelled {
     pub restitution: Option<Restitution>,
     pub bounce_std: Option<f64>,
     pub model: Model,
     pub ball: Option<Ball>,
+    /// e and contact at every speed, and the flight.
+    pub ball_model: Option<BallModel>,
     pub budget: Option<Budget>,
     pub contact: Option<Parameter>,
     pub drag: Option<Parameter>,
@@ -56,31 +57,11 @@ pub(super) struct Modelled {
     pub warnings: Vec<Warning>,
 }
 
-impl Modelled {
-    /// What the model takes out of the intervals.
-    pub(super) fn corrections(&self) -> Corrections {
-        Corrections {
-            contact_s: self.contact.map_or(0.0, |p| p.value),
-            drag_per_s2: self.drag.map_or(0.0, |p| p.value),
-        }
-    }
-}
-
 /// Fits a drop.
 pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, Error> {
     let inputs = inputs(settings)?;
     let Some(climb) = climb(timed, &inputs, settings.model) else {
-        return Ok(Modelled {
-            restitution: None,
-            bounce_std: None,
-            model: Model::default(),
-            ball: None,
-            budget: None,
-            contact: None,
-            drag: None,
-            by_speed: false,
-            warnings: Vec::new(),
-        });
+        return Ok(Modelled::default());
     };
     let fit = &climb.fit;
     let estimate = exponential(&fit.ln_restitution);
@@ -97,6 +78,7 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
         }),
         bounce_std: told.then_some(fit.bounce_std),
         ball: ball(&climb, &inputs, settings),
+        ball_model: Some(climb.ball(settings.gravity_m_per_s2)?),
         budget: told.then_some(fit.budget),
         contact: fit.contact_s,
         drag: fit.drag_per_s2,

@@ -1,9 +1,10 @@
 //! What a user should know about a result, and what to do about it.
 
 use super::Stretch;
-use crate::fit::flights::Impact as Timed;
-use crate::fit::total_time::{Missing, TotalTime};
-use crate::report::{Drop, Warning, WarningCode};
+use crate::fit::Estimate;
+use crate::fit::flights::{Flights, Impact as Timed};
+use crate::fit::total_time::{Missing, TotalTime, left_s};
+use crate::report::{Warning, WarningCode};
 use crate::sequence::Chain;
 
 /// Fewer flights than this tell the trend of e from chance badly.
@@ -143,10 +144,15 @@ fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
     sound.iter().filter(|x| x.abs() >= CLIPPED).count() >= CLIPPED_SAMPLES
 }
 
-/// The end of a drop: `left_s` is how long the ball would have gone on after its last impact, `end_s` the end of the
-/// recording.
-pub(super) fn of_end(drop: &Drop, left_s: Option<f64>, end_s: f64) -> Option<Warning> {
-    let (left_s, recorded_s) = (left_s?, end_s - drop.impacts.last()?.time_s);
+/// The end of a drop whose flights have this ratio, in a recording that ends at `end_s`.
+pub(super) fn of_end(
+    timed: &[Timed],
+    flights: &Flights,
+    ratio: Option<Estimate>,
+    end_s: f64,
+) -> Option<Warning> {
+    let left_s = left_s(timed, flights, ratio?.value);
+    let recorded_s = end_s - timed.last()?.time_s;
     let message = format!(
         "the recording ends before the ball rests: it would go on for about {left_s:.2} s, of which {recorded_s:.2} s \
          were recorded. There is no T_total, and equation (25) does not apply. Record for longer"

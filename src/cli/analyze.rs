@@ -71,14 +71,14 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let mut settings = arguments.listening.settings();
     arguments.rule.complete(&mut settings);
     let hear = Hearing { settings, labels };
-    let mut report = if arguments.file == Path::new("-") {
+    let report = if arguments.file == Path::new("-") {
         let open = Stream::open(io::stdin());
         open.and_then(|stream| arguments.listening.hear(stream, "-".to_owned(), &hear))
             .map_err(|e| e.in_file("standard input"))?
     } else {
         arguments.listening.hear_file(&arguments.file, &hear)?
     };
-    arguments.rule.judge(&mut report)?;
+    let report = arguments.rule.judge(report)?;
     arguments.labels.write(&report)?;
     if let Some(target) = target {
         draw_sheets(&target, &arguments.file, &report)?;
@@ -90,7 +90,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     };
     Ok(Outcome {
         output,
-        status: u8::from(report.analysis.drops.is_empty()),
+        status: u8::from(report.drops.is_empty()),
     })
 }
 

@@ -3,7 +3,8 @@
 use std::ops::Range;
 use std::path::Path;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use super::labels::Given;
 use super::{acceleration, length, mass, time};
@@ -33,8 +34,8 @@ pub(super) struct Listening {
     #[arg(long, value_parser = time, allow_hyphen_values = true)]
     contact_time: Option<f64>,
     /// Model of the intervals: constant e, and what is added to it
-    #[arg(long, value_enum, default_value_t = ModelChoice::Auto)]
-    model: ModelChoice,
+    #[arg(long, default_value = "auto", value_parser = one_of(&MODELS))]
+    model: Choice,
     /// Gravity in m/s²
     #[arg(long, value_parser = acceleration, default_value = "9.81", allow_hyphen_values = true)]
     gravity: f64,
@@ -53,8 +54,8 @@ pub(super) struct Listening {
     #[arg(long, value_parser = time, allow_hyphen_values = true)]
     end: Option<f64>,
     /// How impacts are timed, from fastest to most exact
-    #[arg(long, value_enum, default_value_t = TimingChoice::Auto)]
-    timing: TimingChoice,
+    #[arg(long, default_value = "auto", value_parser = one_of(&TIMINGS))]
+    timing: Timing,
 }
 
 /// How one recording is listened to: the settings of the library, and the labels whose impacts are fitted in place of
@@ -98,48 +99,68 @@ impl std::str::FromStr for Channel {
     }
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum TimingChoice {
-    /// The most exact that the recording allows
-    Auto,
-    /// The detector's grid, a quarter of a millisecond
-    Envelope,
-    /// A fixed fraction of each impact's rise
-    Fraction,
-    /// Correlation with the mean impact
-    Correlation,
+/// A word of the command line, what it stands for and what the help says of it.
+type Word<T> = (&'static str, T, &'static str);
+
+const TIMINGS: [Word<Timing>; 4] = [
+    (
+        "auto",
+        Timing::Correlation,
+        "The most exact that the recording allows",
+    ),
+    (
+        Timing::Envelope.word(),
+        Timing::Envelope,
+        "The detector's grid, a quarter of a millisecond",
+    ),
+    (
+        Timing::Fraction.word(),
+        Timing::Fraction,
+        "A fixed fraction of each impact's rise",
+    ),
+    (
+        Timing::Correlation.word(),
+        Timing::Correlation,
+        "Correlation with the mean impact",
+    ),
+];
+
+const MODELS: [Word<Choice>; 7] = [
+    model(Choice::Auto, "As much as the recording supports"),
+    model(Choice::Constant, "Constant e"),
+    model(
+        Choice::Contact,
+        "The time in contact stands in every interval",
+    ),
+    model(
+        Choice::Linear,
+        "A linear ball with weight: slow impacts last longer and lose more",
+    ),
+    model(Choice::Drag, "The air slows the ball"),
+    model(Choice::Speed, "e is a power of the impact speed"),
+    model(
+        Choice::Viscoelastic,
+        "Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed",
+    ),
+];
+
+const fn model(choice: Choice, help: &'static str) -> Word<Choice> {
+    (choice.word(), choice, help)
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ModelChoice {
-    /// As much as the recording supports
-    Auto,
-    /// Constant e
-    Constant,
-    /// The time in contact stands in every interval
-    Contact,
-    /// A linear ball with weight: slow impacts last longer and lose more
-    Linear,
-    /// The air slows the ball
-    Drag,
-    /// e is a power of the impact speed
-    Speed,
-    /// Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed
-    Viscoelastic,
-}
-
-impl From<ModelChoice> for Choice {
-    fn from(choice: ModelChoice) -> Self {
-        match choice {
-            ModelChoice::Auto => Self::Auto,
-            ModelChoice::Constant => Self::Constant,
-            ModelChoice::Contact => Self::Contact,
-            ModelChoice::Linear => Self::Linear,
-            ModelChoice::Drag => Self::Drag,
-            ModelChoice::Speed => Self::Speed,
-            ModelChoice::Viscoelastic => Self::Viscoelastic,
-        }
-    }
+/// One of these words.
+fn one_of<T: Copy + Send + Sync + 'static>(
+    words: &'static [Word<T>],
+) -> impl TypedValueParser<Value = T> {
+    let values = words
+        .iter()
+        .map(|(word, _, help)| PossibleValue::new(*word).help(*help));
+    PossibleValuesParser::new(values).try_map(|given| {
+        let named = words.iter().find(|(word, ..)| *word == given);
+        named
+            .map(|(_, value, _)| *value)
+            .ok_or("not one of the words")
+    })
 }
 
 impl Listening {
@@ -184,19 +205,14 @@ impl Listening {
             repairs.map(|message| report::Warning::new(report::WarningCode::Repaired, message));
         analysis.warnings.extend(repairs);
         analysis.warnings.extend(lossy.then(|| of_lossy(&encoding)));
-        Ok(Report {
-            schema_version: report::SCHEMA_VERSION,
-            file,
-            recording: RecordingInfo {
-                sample_rate_hz: rate,
-                channels,
-                channel: heard.start + channel + 1,
-                duration_s: ending.duration_s,
-                encoding,
-            },
-            settings: settings.info(),
-            analysis,
-        })
+        let recording = RecordingInfo {
+            sample_rate_hz: rate,
+            channels,
+            channel: heard.start + channel + 1,
+            duration_s: ending.duration_s,
+            encoding,
+        };
+        Ok(Report::new(file, recording, settings.clone(), analysis))
     }
 
     /// The settings of the library.
@@ -208,14 +224,10 @@ impl Listening {
             mass_kg: self.mass,
             diameter_m: self.diameter,
             contact_time_s: self.contact_time,
-            model: self.model.into(),
+            model: self.model,
             start_s: self.start,
             end_s: self.end,
-            timing: match self.timing {
-                TimingChoice::Envelope => Timing::Envelope,
-                TimingChoice::Fraction => Timing::Fraction,
-                TimingChoice::Auto | TimingChoice::Correlation => Timing::Correlation,
-            },
+            timing: self.timing,
             ..Settings::default()
         }
     }

@@ -36,14 +36,14 @@ impl RuleArguments {
         }
     }
 
-    /// Adds the verdict to a report that was made with these settings.
-    pub(super) fn judge(&self, report: &mut Report) -> Result<(), Error> {
-        if let Some(rule) = &self.rule {
+    /// A report that was made with these settings, with the verdict.
+    pub(super) fn judge(&self, report: Report) -> Result<Report, Error> {
+        let judged = self.rule.map(|rule| {
             let settings = &report.settings;
             let ball = rule.ball(settings.mass_kg, settings.diameter_m);
-            let gravity = settings.gravity_m_per_s2;
-            report.analysis.rule = Some(judge(rule, &report.analysis, ball, gravity)?);
-        }
-        Ok(())
+            judge(&rule, &report.drops, ball, settings.gravity_m_per_s2)
+        });
+        let judged = judged.transpose()?;
+        Ok(report.with_rule(judged))
     }
 }

@@ -71,7 +71,6 @@ fn analysis(drops: Vec<Drop>) -> Analysis {
         drops,
         rejected: Vec::new(),
         rejected_weak: 0,
-        rule: None,
         warnings: Vec::new(),
     }
 }

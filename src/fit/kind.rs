@@ -94,7 +94,7 @@ impl ModelKind {
     /// A contact time and a drag that are given are in every model, whatever its name.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a parameter out of range, and for a linear ball without a contact time.
+    /// [`Error::Argument`] for a parameter out of range.
     pub fn ball(self, parameters: &BallParameters) -> Result<BallModel, Error> {
         let &BallParameters {
             at_speed_m_per_s,
@@ -105,7 +105,8 @@ impl ModelKind {
         let flight = FlightLaw::with_drag(gravity, parameters.drag_per_s2)?;
         let ln = parameters.restitution.ln().min(-f64::EPSILON);
         let restitution = Restitution::from_ln(ln)?;
-        if self.is_linear() {
+        // Without a contact its weight takes nothing.
+        if self.is_linear() && contact_time_s > 0.0 {
             let contact = LinearContact::with_restitution_at(
                 restitution,
                 at_speed_m_per_s,
@@ -137,5 +138,102 @@ impl ModelKind {
             contact_time_s,
         };
         BallModel::new(flight, bounce)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::flights::Impact;
+    use crate::fit::ladder::{Choice, Inputs, climb};
+
+    const BALL: BallParameters = BallParameters {
+        restitution: 0.85,
+        at_speed_m_per_s: 1.0,
+        contact_time_s: 0.0,
+        drag_per_s2: 0.0,
+        speed_exponent: 0.0,
+        gravity_m_per_s2: 9.81,
+    };
+
+    /// The impacts of a ball that first arrives at 3 m/s.
+    fn impacts(ball: &BallModel) -> Vec<Impact> {
+        let mut time_s = 1.0;
+        let intervals = ball.intervals(3.0).take(25);
+        let times = std::iter::once(0.0).chain(intervals).map(|interval_s| {
+            time_s += interval_s;
+            time_s
+        });
+        times
+            .map(|time_s| Impact {
+                time_s,
+                std_s: 1e-6,
+                heard: true,
+            })
+            .collect()
+    }
+
+    #[test]
+    fn a_ball_that_makes_a_drop_is_the_one_that_is_fitted_to_it() {
+        let with = |change: fn(&mut BallParameters)| {
+            let mut parameters = BALL;
+            change(&mut parameters);
+            parameters
+        };
+        for (kind, choice, parameters) in [
+            (ModelKind::Constant, Choice::Constant, BALL),
+            (
+                ModelKind::Contact,
+                Choice::Contact,
+                with(|p| p.contact_time_s = 2e-3),
+            ),
+            (
+                ModelKind::Linear,
+                Choice::Linear,
+                with(|p| p.contact_time_s = 5e-3),
+            ),
+            (ModelKind::Drag, Choice::Drag, with(|p| p.drag_per_s2 = 1.2)),
+            (
+                ModelKind::Speed,
+                Choice::Speed,
+                with(|p| p.speed_exponent = 0.04),
+            ),
+            (ModelKind::Viscoelastic, Choice::Viscoelastic, BALL),
+        ] {
+            let made = kind.ball(&parameters).unwrap();
+            let climb = climb(&impacts(&made), &Inputs::default(), choice).unwrap();
+            assert_eq!(climb.selected, kind);
+            let fitted = climb.ball(9.81).unwrap();
+            for speed in [0.3, 1.0, 2.5] {
+                let [made_e, fitted_e] =
+                    [&made, &fitted].map(|b| b.restitution(speed).unwrap().value());
+                assert!(
+                    (made_e - fitted_e).abs() < 1e-3,
+                    "{kind} at {speed}: {fitted_e}"
+                );
+                let [made_s, fitted_s] = [&made, &fitted].map(|b| b.contact_time_s(speed).unwrap());
+                assert!(
+                    (made_s - fitted_s).abs() < 1e-4,
+                    "{kind} at {speed}: {fitted_s}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn no_ball_gains_and_a_linear_one_without_contact_is_one_of_constant_e() {
+        let lively = BallParameters {
+            restitution: 1.1,
+            ..BALL
+        };
+        let e = |kind: ModelKind, p: &BallParameters| kind.ball(p).unwrap().restitution(0.2);
+        assert!(e(ModelKind::Constant, &lively).is_some_and(|e| e.value() < 1.0));
+        let linear = e(ModelKind::Linear, &BALL).unwrap();
+        assert!((linear.value() - 0.85).abs() < 1e-15);
+        let wrong = BallParameters {
+            drag_per_s2: -1.0,
+            ..BALL
+        };
+        assert!(ModelKind::Drag.ball(&wrong).is_err());
     }
 }

@@ -57,7 +57,7 @@ const RUNGS: [ModelKind; 9] = [
 /// A rung is climbed where the data are likelier on it by this many nats: odds of 7 to 1.
 const WORTH: f64 = 2.0;
 /// Two models whose evidence differs by less than this are not told apart: odds of 20 to 1.
-pub const ALIKE: f64 = 3.0;
+pub(crate) const ALIKE: f64 = 3.0;
 
 /// A rung and how well it explains the drop.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]

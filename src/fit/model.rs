@@ -10,6 +10,7 @@ use super::posterior::Posterior;
 use super::state::State;
 use super::stray::{self, Strays};
 use crate::physics::priors::Known;
+use crate::statistics::bisected;
 
 /// Fewest impacts with a ratio of flights.
 const FEWEST: usize = 3;
@@ -100,18 +101,8 @@ impl Fit {
             };
             let widest = |m: &Rival| m.interval95.map(|end| (end - *value).abs());
             let reach = FAR * models.iter().flat_map(widest).fold(0.0, f64::max);
-            *ends = [0.025, 0.975].map(|p| {
-                let (mut low, mut high) = (*value - reach, *value + reach);
-                for _ in 0..HALVINGS {
-                    let middle = 0.5 * (low + high);
-                    if below(middle) < p {
-                        low = middle;
-                    } else {
-                        high = middle;
-                    }
-                }
-                0.5 * (low + high)
-            });
+            let range = (*value - reach, *value + reach);
+            *ends = [0.025, 0.975].map(|p| bisected(range, HALVINGS, |x| below(x) < p));
             let own = (*std * *std / variance).min(1.0);
             *std = variance.sqrt();
             let b = &mut self.budget;

@@ -6,6 +6,7 @@ use super::bounces::Bounces;
 use super::least_squares::{Prior, Solution, solve};
 use super::noise::{Noise, Sizes};
 use crate::physics::priors::BOUNCE_STD;
+use crate::statistics::bisected;
 use crate::units::real;
 
 /// Steps over that range in which the likelihood is searched for: a factor of four each, twice narrowed.
@@ -127,16 +128,8 @@ impl Posterior {
         };
         let (mean, std) = self.moments(parameter);
         // Chebyshev: not even 1 in 400 lies beyond 20 standard deviations.
-        let (mut low, mut high) = (mean - 20.0 * std, mean + 20.0 * std);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (low + high);
-            if below(middle) < probability {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        0.5 * (low + high)
+        let range = (mean - 20.0 * std, mean + 20.0 * std);
+        bisected(range, BISECTIONS, |x| below(x) < probability)
     }
 }
 

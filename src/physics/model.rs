@@ -1,5 +1,6 @@
 //! The model of a ball: restitution and contact time at every speed of impact, and the flight between impacts.
 
+use super::ends::Ends;
 use super::{
     Bounce, FlightLaw, Hop, Leaving, LinearContact, Rebound, ReleaseRule, Restitution,
     RestitutionLaw, check,
@@ -31,6 +32,9 @@ pub struct BallModel {
     flight: FlightLaw,
     surface: Surface,
 }
+
+/// Rounds in which the contact of a linear ball settles within an interval; each leaves a hundredth or less.
+const CONTACT_ROUNDS: usize = 30;
 
 /// A bounce whose parameters were checked.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,6 +113,45 @@ impl BallModel {
             speed = hop.landing_speed_m_per_s;
             Some(leaving.contact_time_s + hop.time_s)
         })
+    }
+
+    /// The contact time at the impact that begins an interval between impacts of this length, in seconds.
+    ///
+    /// That of a linear ball is longer in short intervals; it is found in rounds, for it hardly depends on the speed.
+    pub(crate) fn contact_in_s(&self, interval_s: f64) -> f64 {
+        let contact = match self.surface {
+            Surface::Given { contact_time, .. } => return contact_time,
+            Surface::Linear(contact) => contact,
+        };
+        let leaving_at = |speed: f64| match contact.rebound(speed) {
+            Ok(Rebound::Leaves(leaving)) => Some(leaving),
+            _ => None,
+        };
+        // The contact of a fast impact, without weight.
+        let mut contact_s = contact.oscillator().contact_time_s().unwrap_or(0.0);
+        let mut e = contact
+            .oscillator()
+            .restitution()
+            .map_or(1.0, Restitution::value);
+        for _ in 0..CONTACT_ROUNDS {
+            let ends = Ends::of(interval_s - contact_s, self.flight.drag_per_s2());
+            let speed = |ends: Ends| 0.5 * self.flight.gravity_m_per_s2() * ends.ln_leaving.exp();
+            let Some(leaving) = ends.and_then(|ends| leaving_at(speed(ends) / e)) else {
+                break;
+            };
+            let moved_s = (leaving.contact_time_s - contact_s).abs();
+            (contact_s, e) = (leaving.contact_time_s, leaving.restitution.value());
+            if moved_s < 1e-12 * interval_s {
+                break;
+            }
+        }
+        contact_s
+    }
+
+    /// Both ends of the flight in an interval between impacts; none where that is no longer than the contact.
+    pub(crate) fn ends(&self, interval_s: f64) -> Option<Ends> {
+        let flight_s = interval_s - self.contact_in_s(interval_s);
+        Ends::of(flight_s, self.flight.drag_per_s2())
     }
 
     fn leaving(&self, speed_m_per_s: f64) -> Option<Leaving> {
@@ -226,6 +269,33 @@ mod tests {
         assert_eq!(model.restitution(1e-4), None);
         let few = model.intervals(1.0).count();
         assert!((10..1000).contains(&few), "{few}");
+    }
+
+    #[test]
+    fn the_ends_of_an_interval_are_those_of_the_flight_in_it() {
+        let e = Restitution::new(0.8).unwrap();
+        let contact = LinearContact::with_restitution_at(e, 1.0, 8e-3, G).unwrap();
+        let flight = FlightLaw::with_drag(G, 0.5).unwrap();
+        let bounce = Bounce::Linear {
+            ball: contact.oscillator(),
+            release_rule: ReleaseRule::ZeroDisplacement,
+        };
+        let model = BallModel::new(flight, bounce).unwrap();
+        for speed in [0.3, 0.8, 3.0] {
+            let leaving = model
+                .restitution(speed)
+                .unwrap()
+                .rebound_speed_m_per_s(speed);
+            let interval_s = model.intervals(speed).next().unwrap();
+            let contact_s = model.contact_time_s(speed).unwrap();
+            assert!((model.contact_in_s(interval_s) / contact_s - 1.0).abs() < 1e-9);
+            let found = 0.5 * G * model.ends(interval_s).unwrap().ln_leaving.exp();
+            assert!(
+                (found / leaving - 1.0).abs() < 1e-9,
+                "{speed}: {found} {leaving}"
+            );
+        }
+        assert!(model.contact_time_s(0.3).unwrap() > 1.02 * model.contact_time_s(3.0).unwrap());
     }
 
     #[test]

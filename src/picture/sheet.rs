@@ -16,7 +16,7 @@ const DENSITY: f64 = 0.8;
 /// [`Sound::of`] made of the same report, after it heard the recording.
 #[must_use]
 pub fn sheets(report: &Report, sounds: &[Sound]) -> Vec<Figure> {
-    let drops = &report.analysis.drops;
+    let drops = &report.drops;
     if drops.is_empty() {
         return sounds.iter().map(|s| without_drop(report, s)).collect();
     }
@@ -65,7 +65,7 @@ fn answer(drop: &Drop) -> String {
 fn without_drop(report: &Report, sound: &Sound) -> Figure {
     Figure {
         title: format!("{}: no drop found", printable(&report.file)),
-        subtitle: report.analysis.warnings.first().map(|w| w.message.clone()),
+        subtitle: report.warnings.first().map(|w| w.message.clone()),
         rows: vec![Row {
             height: 1,
             panels: vec![level::panel(report, None, sound)],

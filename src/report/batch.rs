@@ -49,7 +49,7 @@ impl From<&Drop> for DropDigest {
 
 impl From<&Report> for Digest {
     fn from(report: &Report) -> Self {
-        let drops = &report.analysis.drops;
+        let drops = &report.drops;
         Self {
             file: report.file.clone(),
             found: if drops.is_empty() {

@@ -83,7 +83,7 @@ pub fn rows(report: &Report) -> String {
             info.duration_s.to_string(),
         ]
     };
-    let drops = &report.analysis.drops;
+    let drops = &report.drops;
     if drops.is_empty() {
         let reason = report.why_none();
         let head = head(&report.file, "", 0, status::NONE, reason);
@@ -92,7 +92,7 @@ pub fn rows(report: &Report) -> String {
     let row = |(i, drop): (usize, &Drop)| {
         let number = (i + 1).to_string();
         let head = head(&report.file, &number, drops.len(), status::DROP, "");
-        let measured = measured(drop, &report.analysis.warnings);
+        let measured = measured(drop, &report.warnings);
         joined(&[&head[..], &measured, &tail(drop.channel)])
     };
     drops.iter().enumerate().map(row).collect()

@@ -9,12 +9,14 @@ pub mod json;
 pub mod labels;
 mod model;
 pub mod rule;
+mod settings;
 mod table;
 pub mod text;
 mod warning;
 mod wrap;
 
 pub use model::{Given, Model, Parameters};
+pub use settings::Settings;
 pub(crate) use table::decimals;
 pub(crate) use text::{model_name, with_error};
 pub use warning::{Warning, WarningCode};
@@ -22,7 +24,6 @@ pub use warning::{Warning, WarningCode};
 use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::fit::Estimate;
-use crate::fit::ladder::Choice;
 use crate::fit::model::Budget;
 use crate::physics::ReleaseRule;
 use crate::words::words;
@@ -32,6 +33,7 @@ pub const SCHEMA_VERSION: u32 = 1;
 
 /// Everything about one recording.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Report {
     /// Version of the document's form.
     pub schema_version: u32,
@@ -40,16 +42,50 @@ pub struct Report {
     /// The recording itself.
     pub recording: RecordingInfo,
     /// What was asked for.
-    pub settings: SettingsInfo,
-    /// The drops, their rejects and the warnings.
-    #[serde(flatten)]
-    pub analysis: Analysis,
+    pub settings: Settings,
+    /// The drops in order of time.
+    pub drops: Vec<Drop>,
+    /// Strong events outside any drop.
+    pub rejected: Vec<Rejected>,
+    /// How many weaker events were left out without being listed.
+    pub rejected_weak: usize,
+    /// What a rule book says of the drops; null unless that was asked for.
+    pub rule: Option<rule::RuleReport>,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
 }
 
 impl Report {
+    /// What was heard in a recording of this name with these settings.
+    #[must_use]
+    pub fn new(
+        file: String,
+        recording: RecordingInfo,
+        settings: Settings,
+        analysis: Analysis,
+    ) -> Self {
+        Self {
+            schema_version: SCHEMA_VERSION,
+            file,
+            recording,
+            settings,
+            drops: analysis.drops,
+            rejected: analysis.rejected,
+            rejected_weak: analysis.rejected_weak,
+            rule: None,
+            warnings: analysis.warnings,
+        }
+    }
+
+    /// The same with what a rule book says of its drops.
+    #[must_use]
+    pub fn with_rule(self, rule: Option<rule::RuleReport>) -> Self {
+        Self { rule, ..self }
+    }
+
     /// Why there is no drop, in a sentence.
     fn why_none(&self) -> &str {
-        let reason = self.analysis.warnings.first();
+        let reason = self.warnings.first();
         reason.map_or("no drop found", |warning| &warning.message)
     }
 }
@@ -69,31 +105,6 @@ pub struct RecordingInfo {
     pub encoding: String,
 }
 
-/// What was asked for.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct SettingsInfo {
-    /// From the ball's lowest point to the surface, in metres.
-    pub height_m: Option<f64>,
-    /// Standard error of the height in metres.
-    pub height_std_m: f64,
-    /// In m/s².
-    pub gravity_m_per_s2: f64,
-    /// Mass of the ball in kg.
-    pub mass_kg: Option<f64>,
-    /// Its diameter in metres.
-    pub diameter_m: Option<f64>,
-    /// Its time in contact in seconds.
-    pub contact_time_s: Option<f64>,
-    /// The model asked for.
-    pub model: Choice,
-    /// Where listening began, in seconds.
-    pub start_s: Option<f64>,
-    /// Where it ended, in seconds.
-    pub end_s: Option<f64>,
-    /// How impacts were timed.
-    pub timing: crate::timing::Timing,
-}
-
 /// What was heard in a recording.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -104,8 +115,6 @@ pub struct Analysis {
     pub rejected: Vec<Rejected>,
     /// How many weaker events were left out without being listed.
     pub rejected_weak: usize,
-    /// What a rule book says of it; null unless that was asked for.
-    pub rule: Option<rule::RuleReport>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
 }
@@ -358,3 +367,6 @@ words! {
 fn infinite_where_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     Option::deserialize(deserializer).map(|number| number.unwrap_or(f64::INFINITY))
 }
+
+#[cfg(test)]
+mod tests;

@@ -108,7 +108,7 @@ pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
 
 /// What all drops together say of the rule.
 pub(super) fn spread(report: &Report) -> Option<String> {
-    let rule = report.analysis.rule.as_ref()?;
+    let rule = report.rule.as_ref()?;
     let (spread_m, allowed) = (rule.spread_m?, rule.allowed_spread?);
     let unit = Unit::of(rule);
     Some(format!(

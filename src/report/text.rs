@@ -23,7 +23,7 @@ pub enum Detail {
 #[must_use]
 pub fn to_text(report: &Report, detail: Detail) -> String {
     let mut out = String::new();
-    let drops = &report.analysis.drops;
+    let drops = &report.drops;
     let count = drops.len();
     line(
         &mut out,
@@ -34,7 +34,7 @@ pub fn to_text(report: &Report, detail: Detail) -> String {
         },
     );
     let judged = |i| {
-        let judged = report.analysis.rule.as_ref();
+        let judged = report.rule.as_ref();
         judged.map_or_else(Vec::new, |judged| rule::entries(judged, i))
     };
     for (i, drop) in drops.iter().enumerate() {
@@ -58,12 +58,12 @@ pub fn to_text(report: &Report, detail: Detail) -> String {
         } else {
             "outside the drops"
         };
-        rejects(&mut out, &report.analysis.rejected, place, detail);
+        rejects(&mut out, &report.rejected, place, detail);
     }
     if let Some(spread) = rule::spread(report) {
         line(&mut out, &format!("\n{}", wrapped(&spread, 2)));
     }
-    warnings(&mut out, &report.analysis.warnings);
+    warnings(&mut out, &report.warnings);
     out
 }
 

@@ -46,19 +46,12 @@ fn heard(e: f64, std: f64) -> Drop {
     }
 }
 
-fn report(rule: &Rule, drops: Vec<Drop>) -> RuleReport {
-    let analysis = Analysis {
-        drops,
-        rejected: Vec::new(),
-        rejected_weak: 0,
-        rule: None,
-        warnings: Vec::new(),
-    };
-    judge(rule, &analysis, rule.ball(None, None), G).unwrap()
+fn report(rule: &Rule, drops: &[Drop]) -> RuleReport {
+    judge(rule, drops, rule.ball(None, None), G).unwrap()
 }
 
 fn judged(rule: &Rule, drop: Drop) -> Judged {
-    report(rule, vec![drop]).drops.remove(0)
+    report(rule, &[drop]).drops.remove(0)
 }
 
 /// A rule for a heavy ball, which the air hardly slows.
@@ -229,7 +222,7 @@ fn the_gain_of_a_soft_linear_ball_is_that_of_the_exact_contact() {
 #[test]
 fn rebounds_of_several_drops_have_a_spread() {
     let fifa = rule("fifa-pro").unwrap();
-    let report = report(&fifa, vec![heard(0.85, 0.001), heard(0.87, 0.001)]);
+    let report = report(&fifa, &[heard(0.85, 0.001), heard(0.87, 0.001)]);
     let of = |i: usize| report.drops[i].rebound_m.unwrap().value;
     assert!((report.spread_m.unwrap() - (of(1) - of(0))).abs() < 1e-12);
     assert_eq!(report.allowed_spread.unwrap().drops, 10);

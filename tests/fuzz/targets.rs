@@ -10,7 +10,7 @@ use bounce_audio::audio::{self, Stream};
 use bounce_audio::fit::ladder::Choice;
 use bounce_audio::random::SplitMix64;
 use bounce_audio::report::labels::{Form, drops, read};
-use bounce_audio::report::{RecordingInfo, Report, SCHEMA_VERSION, csv, json, text};
+use bounce_audio::report::{RecordingInfo, Report, csv, json, text};
 use bounce_audio::synth::presets::preset;
 use bounce_audio::synth::render;
 use bounce_audio::synth::scene::Scene;
@@ -371,19 +371,19 @@ fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
     while listener.push_with(|room| stream.append(&all, room))?? {}
     let ending = stream.finish()?;
     let (channel, analysis) = listener.finish()?;
-    Ok(Report {
-        schema_version: SCHEMA_VERSION,
-        file: "it".to_owned(),
-        recording: RecordingInfo {
-            sample_rate_hz,
-            channels: all.len(),
-            channel: channel + 1,
-            duration_s: ending.duration_s,
-            encoding,
-        },
-        settings: settings.info(),
+    let recording = RecordingInfo {
+        sample_rate_hz,
+        channels: all.len(),
+        channel: channel + 1,
+        duration_s: ending.duration_s,
+        encoding,
+    };
+    Ok(Report::new(
+        "it".to_owned(),
+        recording,
+        settings.clone(),
         analysis,
-    })
+    ))
 }
 
 /// All forms can be written, times are in order and in the recording, and what is given is a number.
@@ -391,7 +391,7 @@ fn check(report: &Report) {
     assert!(!text::to_text(report, text::Detail::Everything).contains("NaN"));
     assert!(!csv::to_csv(report).contains("NaN"));
     assert!(json::to_json(report).is_ok());
-    for drop in &report.analysis.drops {
+    for drop in &report.drops {
         let times: Vec<f64> = drop.impacts.iter().map(|i| i.time_s).collect();
         assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
         let within = -0.1..=report.recording.duration_s + 0.1;
