@@ -55,10 +55,7 @@ fn answer(drop: &Drop) -> String {
         || "e not determined".to_owned(),
         |r| format!("e = {}", with_error(&r.estimate)),
     );
-    let model = match model_name(&drop.model) {
-        name if name == "constant" => "constant e".to_owned(),
-        name => name,
-    };
+    let model = model_name(&drop.model);
     format!("{e}, {} bounces heard, model: {model}", drop.bounces)
 }
 

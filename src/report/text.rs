@@ -186,12 +186,14 @@ pub(crate) fn model_name(model: &Model) -> String {
         Given::Drag => "drag",
     });
     let given: Vec<&str> = given.collect();
-    match (model.selected, given.is_empty()) {
-        (selected, true) => selected.to_string(),
-        (ModelKind::Constant, false) => {
-            format!("constant e, with the {} given", given.join(" and "))
-        }
-        (selected, false) => format!("{selected}, with the {} given", given.join(" and ")),
+    let name = match model.selected {
+        ModelKind::Constant => "constant e",
+        other => other.word(),
+    };
+    if given.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name}, with the {} given", given.join(" and "))
     }
 }
 
@@ -338,6 +340,7 @@ mod tests {
             })
         };
         assert_eq!(named(ModelKind::ContactDrag, &[]), "contact+drag");
+        assert_eq!(named(ModelKind::Constant, &[]), "constant e");
         let contact = named(ModelKind::Constant, &[Given::ContactTime]);
         assert_eq!(contact, "constant e, with the contact time given");
         let both = named(ModelKind::Speed, &[Given::ContactTime, Given::Drag]);
