@@ -12,8 +12,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-use bounce_audio::analysis::{Settings, analyze};
 use bounce_audio::audio::{self, Recording, Stream};
+use bounce_audio::{Settings, analyze};
 use serde_json::Value;
 
 #[path = "common/piped.rs"]

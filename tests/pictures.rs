@@ -5,13 +5,13 @@
     reason = "a failing test should panic"
 )]
 
-use bounce_audio::analysis::{Settings, analyze};
 use bounce_audio::picture::batch::{self, BatchRow};
 use bounce_audio::picture::sheet::sheets;
 use bounce_audio::picture::sound::Sound;
 use bounce_audio::picture::total_time::{self, Point};
 use bounce_audio::plot::{Figure, to_png, to_svg};
 use bounce_audio::report::{RecordingInfo, Report, Status};
+use bounce_audio::{Settings, analyze};
 
 const RATE: f64 = 8_000.0;
 

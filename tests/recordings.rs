@@ -10,9 +10,9 @@
 
 use std::path::PathBuf;
 
-use bounce_audio::analysis::{Settings, analyze_clearest};
 use bounce_audio::audio;
 use bounce_audio::report::{Analysis, Drop, Status};
+use bounce_audio::{Settings, analyze_clearest};
 
 fn listen(name: &str, settings: &Settings) -> Analysis {
     let folder = std::env::var_os("BOUNCE_AUDIO_RECORDINGS")

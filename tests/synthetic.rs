@@ -6,11 +6,11 @@
     reason = "a failing test should panic"
 )]
 
-use bounce_audio::analysis::{Settings, analyze};
 use bounce_audio::report::{Analysis, Status};
 use bounce_audio::synth::scene::{Scene, preset};
 use bounce_audio::synth::truth::DropTruth;
 use bounce_audio::synth::{Synthetic, render};
+use bounce_audio::{Settings, analyze};
 
 const SEEDS: [u64; 3] = [1, 2, 3];
 

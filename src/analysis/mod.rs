@@ -75,7 +75,7 @@ impl<'a> Stretch<'a> {
 /// Listens to one channel: samples of full scale ±1 at a rate in Hz.
 ///
 /// ```
-/// use bounce_audio::analysis::{Settings, analyze};
+/// use bounce_audio::{Settings, analyze};
 ///
 /// // A click every flight of a ball with e = 0.8, at 8 kHz.
 /// let mut samples = vec![0.0_f32; 32_000];
@@ -102,7 +102,7 @@ pub fn analyze(
 }
 
 /// Listens to the clearest of several channels, scene by scene; gives the index of the one that most was heard on too.
-/// See [`crate::detect::clarity`].
+/// See `detect::clarity`.
 ///
 /// # Errors
 /// As [`analyze`]; [`Error::Argument`] if there are no channels.

@@ -73,6 +73,17 @@ fn whole(mut stream: Stream<'_>) -> Result<Recording, Error> {
     })
 }
 
+impl Error {
+    /// Says in which file this error happened.
+    #[must_use]
+    pub fn in_file(self, path: impl AsRef<Path>) -> Self {
+        Self::InFile {
+            file: path.as_ref().display().to_string(),
+            source: Box::new(self),
+        }
+    }
+}
+
 /// An [`Error::Recording`] for a problem.
 fn unreadable(problem: impl Into<String>) -> Error {
     Error::Recording {

@@ -18,7 +18,6 @@ mod state;
 pub mod stray;
 pub mod total_time;
 
-pub use flights::Flights;
 pub use kind::{BallParameters, ModelKind};
 
 use serde::{Deserialize, Serialize};

@@ -138,8 +138,8 @@ const HALVINGS: usize = 19;
 
 /// Fits a model. None for fewer than three impacts, a flight that is not longer than the contact, or parameters that run
 /// away.
-#[must_use]
-pub fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
+#[cfg(test)]
+pub(super) fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
     Some(Fitted::new(impacts, terms)?.summary())
 }
 

@@ -1,7 +1,7 @@
 //! The pictures of results: pure functions of a report and of the little that was kept of its sound.
 //!
 //! [`sheet`] shows one drop of a recording on one sheet, [`batch`] many recordings, [`total_time`] numbers typed in.
-//! What draws them, whatever they show, is [`plot`](crate::plot).
+//! What draws them, whatever they show, is `plot`.
 
 pub mod batch;
 mod bounces;

@@ -184,7 +184,7 @@ fn with_std(estimate: Option<Estimate>) -> [String; 2] {
     ]
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "cli"))]
 mod tests {
     use super::*;
 

@@ -5,17 +5,17 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use bounce_audio::Error;
-use bounce_audio::analysis::{Listener, Settings};
+use bounce_audio::ModelChoice;
+use bounce_audio::Timing;
 use bounce_audio::audio::{self, Stream};
-use bounce_audio::fit::ladder::Choice;
 use bounce_audio::random::SplitMix64;
 use bounce_audio::report::labels::{Form, drops, read};
 use bounce_audio::report::{RecordingInfo, Report, csv, json, text};
 use bounce_audio::synth::presets::preset;
 use bounce_audio::synth::render;
 use bounce_audio::synth::scene::Scene;
-use bounce_audio::timing::Timing;
 use bounce_audio::units::{Quantity, real};
+use bounce_audio::{Listener, Settings};
 
 use super::choose::one_of;
 
@@ -350,13 +350,13 @@ fn settings(random: &mut SplitMix64) -> Settings {
     settings.model = *one_of(
         random,
         &[
-            Choice::Auto,
-            Choice::Constant,
-            Choice::Contact,
-            Choice::Linear,
-            Choice::Drag,
-            Choice::Speed,
-            Choice::Viscoelastic,
+            ModelChoice::Auto,
+            ModelChoice::Constant,
+            ModelChoice::Contact,
+            ModelChoice::Linear,
+            ModelChoice::Drag,
+            ModelChoice::Speed,
+            ModelChoice::Viscoelastic,
         ],
     );
     settings

@@ -34,7 +34,7 @@ const MOST_SAMPLES_PER_S: f64 = 1_536_000.0;
 /// Listens to all channels of a recording, block after block.
 ///
 /// ```
-/// use bounce_audio::analysis::{Listener, Settings};
+/// use bounce_audio::{Listener, Settings};
 ///
 /// let mut listener = Listener::new(1, 8_000.0, &Settings::default())?;
 /// for _ in 0..100 {
@@ -291,5 +291,5 @@ fn unlike(channels: usize) -> Error {
     Error::argument("channels", real(channels), expected)
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "lab"))]
 mod tests;
