@@ -38,8 +38,7 @@ fn samples() -> Vec<f32> {
 
 /// Makes the samples, listens to them, and prints what was found.
 pub(crate) fn main() -> Result<(), Error> {
-    let mut settings = Settings::default();
-    settings.mass_kg = Some(2.7e-3);
+    let settings = Settings::default().mass_kg(2.7e-3);
     let analysis = analyze(&samples(), RATE_HZ, &settings)?;
 
     for drop in &analysis.drops {

@@ -13,8 +13,7 @@ pub(crate) fn main() -> Result<(), Error> {
     let made = render(&preset("pingpong")?, 1)?;
     let rate = f64::from(made.truth.sample_rate_hz);
     let e = |model: ModelChoice| -> Result<f64, Error> {
-        let mut settings = Settings::default();
-        settings.model = model;
+        let settings = Settings::default().model(model);
         let analysis = analyze(&made.samples, rate, &settings)?;
         let drop = &analysis.drops[0];
         let e = drop

@@ -16,8 +16,7 @@
 //!     flight_s *= 0.8;
 //! }
 //!
-//! let mut settings = Settings::default();
-//! settings.height_m = Some(0.15);
+//! let settings = Settings::default().height_m(0.305);
 //! let analysis = analyze(&samples, 8_000.0, &settings)?;
 //!
 //! let drop = &analysis.drops[0];

@@ -108,8 +108,7 @@ fn the_ball_from_90_cm_is_found_between_the_handling_noises() {
 
 #[test]
 fn the_ball_from_50_cm_is_cut_off_and_that_is_said() {
-    let mut settings = Settings::default();
-    settings.height_m = Some(0.5);
+    let settings = Settings::default().height_m(0.5);
     let analysis = listen("pfe-0.5m.wav", &settings);
     assert_eq!(analysis.drops.len(), 1);
     let drop = &analysis.drops[0];

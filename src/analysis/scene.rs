@@ -64,7 +64,7 @@ pub(super) fn hear(
     };
     let events = stretch.events(&candidates[channel]);
     let balls = sequence::Settings::default();
-    let found = sequence::find(&events, &balls)?;
+    let found = sequence::find(&events, &balls);
     let edge = Edge::of(&stretch, bounds.cut, &found);
     let rejected = rejected_before(edge.settled_s, told_s, &events, &found);
     let weak = weak_before(edge.settled_s, &events, &found);

@@ -8,13 +8,24 @@ use crate::Error;
 use crate::fit::ladder::Choice;
 use crate::timing::Timing;
 
-/// What is known beforehand and how to listen.
+/// What is known beforehand and how to listen: what everyone begins with, and a setter for all that may differ.
+///
+/// Numbers are taken as they come. [`analyze`](crate::analyze), [`Listener::new`](crate::Listener::new) and all else that
+/// listens checks them once, before anything else: [`check`](Self::check) says which ranges they have.
+///
+/// ```
+/// use bounce_audio::{ModelChoice, Settings};
+///
+/// let settings = Settings::default().height_m(0.305).mass_kg(2.5e-3).diameter_m(38e-3).model(ModelChoice::Drag);
+/// assert!(settings.check().is_ok());
+/// assert!(settings.height_m(-1.0).check().is_err());
+/// ```
 ///
 /// In JSON it is the `settings` of a document. Read from JSON, what is missing has its default and a name that is not
 /// known is an error.
 ///
 /// ```
-/// use bounce_audio::analysis::Settings;
+/// use bounce_audio::Settings;
 ///
 /// let settings: Settings = serde_json::from_str(r#"{"height_m": 0.305, "model": "drag"}"#)?;
 /// assert_eq!((settings.height_m, settings.gravity_m_per_s2), (Some(0.305), 9.81));
@@ -65,6 +76,76 @@ impl Default for Settings {
 }
 
 impl Settings {
+    /// The same with another [`height_m`](Self#structfield.height_m).
+    #[must_use]
+    pub fn height_m(mut self, height_m: impl Into<Option<f64>>) -> Self {
+        self.height_m = height_m.into();
+        self
+    }
+
+    /// The same with another [`height_std_m`](Self#structfield.height_std_m).
+    #[must_use]
+    pub const fn height_std_m(mut self, height_std_m: f64) -> Self {
+        self.height_std_m = height_std_m;
+        self
+    }
+
+    /// The same with another [`gravity_m_per_s2`](Self#structfield.gravity_m_per_s2).
+    #[must_use]
+    pub const fn gravity_m_per_s2(mut self, gravity_m_per_s2: f64) -> Self {
+        self.gravity_m_per_s2 = gravity_m_per_s2;
+        self
+    }
+
+    /// The same with another [`mass_kg`](Self#structfield.mass_kg).
+    #[must_use]
+    pub fn mass_kg(mut self, mass_kg: impl Into<Option<f64>>) -> Self {
+        self.mass_kg = mass_kg.into();
+        self
+    }
+
+    /// The same with another [`diameter_m`](Self#structfield.diameter_m).
+    #[must_use]
+    pub fn diameter_m(mut self, diameter_m: impl Into<Option<f64>>) -> Self {
+        self.diameter_m = diameter_m.into();
+        self
+    }
+
+    /// The same with another [`contact_time_s`](Self#structfield.contact_time_s).
+    #[must_use]
+    pub fn contact_time_s(mut self, contact_time_s: impl Into<Option<f64>>) -> Self {
+        self.contact_time_s = contact_time_s.into();
+        self
+    }
+
+    /// The same with another [`model`](Self#structfield.model).
+    #[must_use]
+    pub const fn model(mut self, model: Choice) -> Self {
+        self.model = model;
+        self
+    }
+
+    /// The same with another [`start_s`](Self#structfield.start_s).
+    #[must_use]
+    pub fn start_s(mut self, start_s: impl Into<Option<f64>>) -> Self {
+        self.start_s = start_s.into();
+        self
+    }
+
+    /// The same with another [`end_s`](Self#structfield.end_s).
+    #[must_use]
+    pub fn end_s(mut self, end_s: impl Into<Option<f64>>) -> Self {
+        self.end_s = end_s.into();
+        self
+    }
+
+    /// The same with another [`timing`](Self#structfield.timing).
+    #[must_use]
+    pub const fn timing(mut self, timing: Timing) -> Self {
+        self.timing = timing;
+        self
+    }
+
     /// Whether the settings mean something, whatever the recording. Ranges reach far beyond any ball, and stay where no
     /// product of settings leaves those of the physics.
     ///

@@ -15,7 +15,6 @@ pub mod track;
 pub use drops::{Chain, Found, Link, find, follow_again};
 pub use reasons::{Reason, Rejected, is_echo_of};
 
-use crate::Error;
 use crate::physics::priors::TRACKED_BOUNCE_STD;
 
 /// What is known of balls before listening. Defaults suit drops from centimetres to metres.
@@ -43,22 +42,6 @@ impl Default for Settings {
 
             least_evidence: 12.0,
         }
-    }
-}
-
-impl Settings {
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        for (name, value) in [
-            ("longest_flight_s", self.longest_flight_s),
-            ("shortest_flight_s", self.shortest_flight_s),
-            ("bounce_scatter", self.bounce_scatter),
-            ("least_evidence", self.least_evidence),
-        ] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(Error::argument(name, value, "a positive number"));
-            }
-        }
-        Ok(())
     }
 }
 

@@ -330,36 +330,31 @@ fn pcm16(channels: u16, sample_rate: u32, samples: &[f32]) -> Vec<u8> {
 
 /// Settings that mostly are in range.
 fn settings(random: &mut SplitMix64) -> Settings {
-    let mut settings = Settings::default();
     let mut maybe = |low: f64, high: f64| {
         let value = low * (high / low).powf(random.uniform());
         (random.uniform() < 0.3).then_some(value)
     };
-    settings.height_m = maybe(1e-6, 1e4);
-    settings.mass_kg = maybe(1e-9, 1e6);
-    settings.diameter_m = maybe(1e-6, 1e3);
-    settings.contact_time_s = maybe(1e-9, 1.0);
-    settings.start_s = maybe(1e-6, 2.0);
-    settings.end_s = maybe(1e-3, 10.0);
-    settings.gravity_m_per_s2 = maybe(1e-3, 1e6).unwrap_or(9.81);
-    settings.height_std_m = maybe(1e-9, 1e4).unwrap_or(0.0);
-    settings.timing = *one_of(
-        random,
-        &[Timing::Envelope, Timing::Fraction, Timing::Correlation],
-    );
-    settings.model = *one_of(
-        random,
-        &[
-            ModelChoice::Auto,
-            ModelChoice::Constant,
-            ModelChoice::Contact,
-            ModelChoice::Linear,
-            ModelChoice::Drag,
-            ModelChoice::Speed,
-            ModelChoice::Viscoelastic,
-        ],
-    );
-    settings
+    let settings = Settings::default()
+        .height_m(maybe(1e-6, 1e4))
+        .mass_kg(maybe(1e-9, 1e6))
+        .diameter_m(maybe(1e-6, 1e3))
+        .contact_time_s(maybe(1e-9, 1.0))
+        .start_s(maybe(1e-6, 2.0))
+        .end_s(maybe(1e-3, 10.0))
+        .gravity_m_per_s2(maybe(1e-3, 1e6).unwrap_or(9.81))
+        .height_std_m(maybe(1e-9, 1e4).unwrap_or(0.0));
+    let timings = [Timing::Envelope, Timing::Fraction, Timing::Correlation];
+    let timing = *one_of(random, &timings);
+    let models = [
+        ModelChoice::Auto,
+        ModelChoice::Constant,
+        ModelChoice::Contact,
+        ModelChoice::Linear,
+        ModelChoice::Drag,
+        ModelChoice::Speed,
+        ModelChoice::Viscoelastic,
+    ];
+    settings.timing(timing).model(*one_of(random, &models))
 }
 
 fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
