@@ -31,7 +31,7 @@
 //! | feature | what it adds to the core |
 //! |---|---|
 //! | | `analyze`, `Listener`, `Settings`; [`report`]: what was found, as data, and its text, JSON, CSV and labels; [`physics`]: flight, contact and the paper's equations |
-//! | `audio` | `audio`: files and pipes to samples (WAV, FLAC, MP3, MP4 and others); `recording::listen`: from there to a report |
+//! | `audio` | `audio`: files and pipes to samples (WAV, FLAC, MP3, MP4 and others); `recording`: from there to a report |
 //! | `plots` | `picture`: a report as SVG and PNG |
 //! | `lab` | `synth`: recordings with known truth |
 //! | `cli` | `cli::run`, the command line; it is switched on by default, with all of the above |
@@ -80,6 +80,8 @@ pub mod audio;
 pub mod cli;
 #[cfg(feature = "plots")]
 pub mod picture;
+#[cfg(feature = "audio")]
+pub mod recording;
 #[cfg(feature = "lab")]
 pub mod synth;
 
