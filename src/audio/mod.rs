@@ -2,7 +2,7 @@
 //!
 //! What a recording is says its content, never its name (`content`). WAV is read by `wav` and what is compressed by
 //! `compressed`; a [`Stream`] is either, and holds a block of it, whatever its length. [`read_file`] holds a whole
-//! recording in memory.
+//! recording in memory, [`write_wav`] writes one.
 
 mod compressed;
 mod content;
@@ -12,8 +12,10 @@ mod wav;
 use std::io::Read;
 use std::path::Path;
 
+pub use compressed::is_guarded;
 pub use content::{HEAD_BYTES, could_be_recording, has_ending};
 pub use stream::Stream;
+pub use wav::{Form, write_wav};
 
 use crate::Error;
 
