@@ -1,6 +1,5 @@
 //! Real recordings and what is known of them. They are not part of the project: this runs with
 //! `cargo test --features recordings` where `BOUNCE_AUDIO_RECORDINGS` names their folder.
-#![cfg(feature = "recordings")]
 #![allow(
     clippy::unwrap_used,
     clippy::panic,

@@ -1,10 +1,5 @@
 //! Every crate that is built in has a licence that `docs/dependencies.md` allows, and comes from the registry. No network is
 //! needed: `cargo tree` reads what was fetched to build this test.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::collections::BTreeMap;
 use std::fs;

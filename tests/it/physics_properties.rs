@@ -1,9 +1,4 @@
 //! What must hold for every ball: energy, limits, monotony, and answers instead of NaN.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use bounce_audio::physics::{
     Air, Bounce, BounceSeries, DropSetup, FlightLaw, Impact, InputErrors, LinearContact,

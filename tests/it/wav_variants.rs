@@ -1,9 +1,4 @@
 //! Every way in which programs write WAV that we know of: `fixtures/wav-variants` and its table.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
 use std::io::Read;
@@ -12,10 +7,6 @@ use std::process::Output;
 
 use bounce_audio::audio;
 use serde_json::Value;
-
-#[path = "common/piped.rs"]
-mod piped;
-use piped::piped;
 
 /// What the samples of a file are: `full_scale·sin(0.05·i)` cut to whole steps where it is integers.
 #[derive(Debug, Clone, Copy)]
@@ -30,6 +21,8 @@ enum Wanted {
 }
 
 use Wanted::{Codes, Refused, Sine};
+
+use crate::common::piped;
 
 const BITS_8: Wanted = Sine(100.0, 128.0);
 const BITS_16: Wanted = Sine(20_000.0, 32_768.0);

@@ -1,10 +1,10 @@
 //! The examples of the library run, and what they assert holds.
 
-#[path = "../examples/analyze_samples.rs"]
+#[path = "../../examples/analyze_samples.rs"]
 mod analyze_samples;
-#[path = "../examples/compare_models.rs"]
+#[path = "../../examples/compare_models.rs"]
 mod compare_models;
-#[path = "../examples/synthesize.rs"]
+#[path = "../../examples/synthesize.rs"]
 mod synthesize;
 
 use bounce_audio::Error;

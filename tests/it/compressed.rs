@@ -1,10 +1,5 @@
 //! Compressed recordings: every format gives the drop that was put into it, what is damaged keeps its time, and what is
 //! not read says how to convert it. `fixtures/compressed` says how the files were made.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
 use std::io::{Cursor, Read};
@@ -16,9 +11,7 @@ use bounce_audio::audio::{self, Recording, Stream};
 use bounce_audio::{Settings, analyze};
 use serde_json::Value;
 
-#[path = "common/piped.rs"]
-mod piped;
-use piped::piped;
+use crate::common::{empty_folder, piped};
 
 fn path(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -284,11 +277,7 @@ fn a_mistake_of_a_decoder_is_one_sentence() {
 
 /// A new folder with some of the files, under other names.
 fn folder(name: &str, files: &[(&str, &str)]) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("compressed")
-        .join(name);
-    drop(fs::remove_dir_all(&folder));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = empty_folder("compressed", name);
     for (from, to) in files {
         fs::copy(path(from), folder.join(to)).unwrap();
     }

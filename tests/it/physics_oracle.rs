@@ -1,10 +1,6 @@
 //! Every function of `physics` against 60-digit arithmetic.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
+#[path = "../oracle/mod.rs"]
 mod oracle;
 
 #[test]

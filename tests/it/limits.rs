@@ -1,9 +1,4 @@
 //! Every limit that README states is met with a sentence that says what was wrong and what is allowed.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
 use std::path::{Path, PathBuf};

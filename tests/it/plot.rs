@@ -1,9 +1,4 @@
 //! Pictures: what a figure holds is in the SVG, and the PNG has ink.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use bounce_audio::plot::{
     Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side, Stroke, to_png,

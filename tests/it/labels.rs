@@ -1,41 +1,15 @@
 //! Labels written, edited as a person would, and read back: the fit uses exactly what stands in the file.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use serde_json::Value;
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-fn json(arguments: &[&str]) -> Value {
-    let output = run(&[arguments, &["--format", "json"]].concat());
-    serde_json::from_slice(&output.stdout)
-        .unwrap_or_else(|e| panic!("{e}: {}", text(&output.stderr)))
-}
+use crate::common::{empty_folder, json, run, text};
 
 /// A recording of a preset in a folder of its own.
 fn recording(folder: &str, preset: &str) -> (PathBuf, String) {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("labels")
-        .join(folder);
-    // Labels of an earlier run, which were edited, would not be replaced.
-    drop(fs::remove_dir_all(&folder));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = empty_folder("labels", folder);
     let path = folder.join("drop.wav").display().to_string();
     let made = run(&["synth", "--preset", preset, "-o", &path]);
     assert!(made.status.success(), "{}", text(&made.stderr));

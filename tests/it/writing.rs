@@ -1,26 +1,14 @@
 //! Results are whole, or what was there before stays: the rest of what `faults` tries one by one.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-#[path = "common/writers.rs"]
-mod writers;
-use writers::WRITERS;
-
-const PROGRAM: &str = env!("CARGO_BIN_EXE_bounce-audio");
+use crate::common::{PROGRAM, WRITERS, empty_folder, names};
 
 /// A folder of its own for each test, with a recording `drop.wav` in it and the thresholds that it reaches.
 fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("writing-{name}"));
-    // There is none on the first run.
-    drop(fs::remove_dir_all(&folder));
-    fs::create_dir_all(&folder).unwrap();
+    let folder = empty_folder("writing", name);
     let made = run(&folder, "synth --preset dead -o drop.wav");
     assert!(made.status.success(), "{}", errors(&made));
     folder
@@ -38,15 +26,6 @@ fn run(folder: &Path, line: &str) -> Output {
 
 fn errors(output: &Output) -> String {
     String::from_utf8(output.stderr.clone()).unwrap()
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let mut names: Vec<String> = entries
-        .map(|e| e.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
 }
 
 /// One sentence that names the file, status 2, and nothing else.

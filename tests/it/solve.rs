@@ -1,13 +1,8 @@
 //! `bounce-audio solve` as a user runs it: the paper's ball, errors, and every wrong argument.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
-
-use std::process::{Command, Output};
 
 use serde_json::Value;
+
+use crate::common::{run, text};
 
 const PAPER: [&str; 9] = [
     "solve",
@@ -20,17 +15,6 @@ const PAPER: [&str; 9] = [
     "--mass",
     "2.5g",
 ];
-
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
 
 fn spoken(arguments: &[&str]) -> String {
     let output = run(arguments);

@@ -1,9 +1,4 @@
 //! What comes in: every invalid number is refused by name and range, every valid one gets a finite answer.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use bounce_audio::Error;
 use bounce_audio::physics::{

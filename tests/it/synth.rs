@@ -1,10 +1,4 @@
 //! Recordings measured by methods that know nothing of how they were made.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::cast_precision_loss,
-    reason = "a failing test should panic; counts of samples are small"
-)]
 
 use bounce_audio::synth::scene::{Mode, Scene, preset};
 use bounce_audio::synth::{Synthetic, render};

@@ -1,9 +1,4 @@
 //! Sheets of analyses and of batches: everything is on them once, readable, whatever a report lacks.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use bounce_audio::picture::batch::{self, BatchRow};
 use bounce_audio::picture::sheet::sheets;

@@ -1,18 +1,14 @@
 //! `synth` and `evaluate` as a user runs them.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
 
 use bounce_audio::audio;
 use bounce_audio::synth::recorder::{Channel, Encoding};
 use bounce_audio::synth::{render, scene::Scene};
 use serde_json::Value;
+
+use crate::common::{empty_folder, run, text};
 
 const SCENE: &str = r"
 name = 'small'
@@ -26,24 +22,8 @@ bounce.constant = { restitution = 0.8, contact_time_s = 1e-4 }
 modes = [{ frequency_hz = 3000.0, decay_s = 4e-3, level = 1.0 }]
 ";
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// An empty folder of its own for each test.
 fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    // There is none on the first run.
-    drop(fs::remove_dir_all(&folder));
-    fs::create_dir_all(&folder).unwrap();
-    folder
+    empty_folder("suite", name)
 }
 
 /// A recording of [`SCENE`] with more lines, made by the command.

@@ -1,9 +1,4 @@
 //! Errors of k, c and ζ and of the natural frequency, against many balls drawn from the errors that went in.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use bounce_audio::physics::{
     BounceSeries, ContactErrors, InputErrors, Oscillator, ParameterErrors, Restitution,

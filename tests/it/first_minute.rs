@@ -1,30 +1,17 @@
 //! What a person meets first: help with examples, completions, quiet and verbose, no colours in a pipe.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
+use crate::common::{empty_folder, run};
 
 fn said(arguments: &[&str]) -> String {
     String::from_utf8(run(arguments).stdout).unwrap()
 }
 
-fn recording(preset: &str) -> String {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"))
-        .join("first-minute")
-        .join(preset);
-    fs::create_dir_all(&folder).unwrap();
+/// A recording of a preset in a folder of its own.
+fn recording(name: &str, preset: &str) -> String {
+    let folder = empty_folder("first-minute", name);
     let path = folder.join("drop.wav").display().to_string();
     assert!(
         run(&["synth", "--preset", preset, "-o", &path])
@@ -85,7 +72,7 @@ fn shells_get_their_completions() {
 
 #[test]
 fn quiet_is_the_answer_and_verbose_is_everything() {
-    let file = recording("pingpong");
+    let file = recording("detail", "pingpong");
     let (quiet, usual, verbose) = (
         said(&["analyze", &file, "-q", "--height", "30.5cm"]),
         said(&["analyze", &file, "--height", "30.5cm"]),
@@ -115,7 +102,7 @@ fn quiet_is_the_answer_and_verbose_is_everything() {
 
 #[test]
 fn where_nothing_was_found_the_text_says_what_to_try() {
-    let output = run(&["analyze", &recording("rapping")]);
+    let output = run(&["analyze", &recording("nothing", "rapping")]);
     let text = String::from_utf8(output.stdout).unwrap();
     assert_eq!(output.status.code(), Some(1), "{text}");
     assert!(
@@ -135,7 +122,7 @@ fn a_pipe_gets_no_colours() {
 
 #[test]
 fn a_rule_is_judged_in_text_and_json() {
-    let file = recording("steel");
+    let file = recording("colours", "steel");
     let text = said(&["analyze", &file, "--rule", "ittf-ball"]);
     assert!(
         text.contains("  rule     ittf-ball: ") && text.contains("rebound predicted "),
@@ -183,7 +170,7 @@ fn names(value: &serde_json::Value, found: &mut Vec<String>) {
 fn the_readme_names_every_field_of_the_document() {
     let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
     let readme = fs::read_to_string(readme).unwrap();
-    let file = recording("pingpong");
+    let file = recording("fields", "pingpong");
     let json = said(&[
         "analyze",
         &file,

@@ -1,9 +1,4 @@
 //! Contact of the linear ball with its weight, against numbers computed from its differential equation.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use bounce_audio::physics::{
     Bounce, DropSetup, FlightLaw, Leaving, LinearContact, Oscillator, Rebound, ReleaseRule,

@@ -1,11 +1,6 @@
 //! The figures of the paper: each is drawn, with its axes, units and the points of the experiment.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
-#[path = "../examples/paper_figures/figures/mod.rs"]
+#[path = "../../examples/paper_figures/figures/mod.rs"]
 mod figures;
 
 use bounce_audio::plot;

@@ -1,9 +1,4 @@
 //! The worked example of the paper: a 2.50 g ball from 30.5 cm makes 70 bounces in 7.5 s.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use bounce_audio::physics::{
     Air, Ball, Bounce, BounceSeries, DropSetup, FlightLaw, Oscillator, Restitution, RestitutionLaw,

@@ -1,10 +1,4 @@
 //! Recordings made from the model, analyzed: what is known to be there must be found, and nothing else.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::expect_used,
-    reason = "a failing test should panic"
-)]
 
 use bounce_audio::report::{Analysis, Status};
 use bounce_audio::synth::scene::{Scene, preset};

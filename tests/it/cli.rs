@@ -1,34 +1,16 @@
 //! The command as a user runs it: output, exit status, and one clear line for every error.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    clippy::expect_used,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
-fn run(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
+use crate::common::{empty_folder, json, run, text};
 
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8(bytes.to_vec()).unwrap()
-}
-
-/// A folder of its own for each test.
 fn folder(name: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::create_dir_all(&folder).unwrap();
-    folder
+    empty_folder("cli", name)
 }
 
 /// A recording of a preset in a folder.
@@ -37,12 +19,6 @@ fn recording(folder: &Path, preset: &str) -> String {
     let made = run(&["synth", "--preset", preset, "-o", &path]);
     assert!(made.status.success(), "{}", text(&made.stderr));
     path
-}
-
-fn json(arguments: &[&str]) -> Value {
-    let output = run(&[arguments, &["--format", "json"]].concat());
-    serde_json::from_slice(&output.stdout)
-        .unwrap_or_else(|e| panic!("{e}: {}", text(&output.stderr)))
 }
 
 #[test]

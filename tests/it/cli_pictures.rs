@@ -1,40 +1,17 @@
 //! `--plot` as a user meets it: which files are there afterwards, and what is said where none can be.
-#![allow(
-    clippy::unwrap_used,
-    clippy::panic,
-    reason = "a failing test should panic"
-)]
 
 use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::path::PathBuf;
 
-fn run_in(folder: &Path, arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
-        .current_dir(folder)
-        .args(arguments)
-        .stdin(Stdio::null())
-        .output()
-        .unwrap()
-}
+use crate::common::{empty_folder, names, run_in};
 
 /// An empty folder of its own for each test, with the recording of a preset.
 fn folder(name: &str, preset: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-    fs::remove_dir_all(&folder).ok();
-    fs::create_dir_all(&folder).unwrap();
+    let folder = empty_folder("pictures", name);
     let made = run_in(&folder, &["synth", "--preset", preset, "-o", "in.wav"]);
     assert!(made.status.success());
     fs::remove_file(folder.join("in.truth.json")).unwrap();
     folder
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    let names = entries.map(|e| e.unwrap().file_name().into_string().unwrap());
-    let mut names: Vec<String> = names.collect();
-    names.sort();
-    names
 }
 
 #[test]
