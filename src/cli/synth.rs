@@ -24,7 +24,7 @@ use crate::units::real;
   bounce-audio synth my-scene.toml --seed 7 -o drop.wav
   bounce-audio synth --suite suite --seeds 3")]
 pub(super) struct Arguments {
-    /// A scene as text; those of the presets are in fixtures/scenes
+    /// A scene as text; those of the presets are in assets/scenes
     #[arg(value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
     /// A scene that comes with the program

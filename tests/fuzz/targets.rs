@@ -225,15 +225,15 @@ pub(crate) fn analyze() -> Target {
     }
 }
 
-/// `fixtures/` of this package, or beside the one that `cargo fuzz` builds.
-fn fixtures() -> PathBuf {
-    let folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
-    let mut fixtures = folders.map(|folder| folder.join("fixtures"));
-    fixtures.find(|folder| folder.is_dir()).unwrap()
+/// A folder of this package, or beside the one that `cargo fuzz` builds.
+fn folder(name: &str) -> PathBuf {
+    let above = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let mut named = above.map(|folder| folder.join(name));
+    named.find(|folder| folder.is_dir()).unwrap()
 }
 
 fn compressed_files() -> Vec<Vec<u8>> {
-    let files = fs::read_dir(fixtures().join("compressed"))
+    let files = fs::read_dir(folder("fixtures").join("compressed"))
         .unwrap()
         .map(|f| f.unwrap().path());
     let no_text = |f: &PathBuf| {
@@ -251,7 +251,7 @@ fn compressed_files() -> Vec<Vec<u8>> {
 }
 
 fn variants() -> Vec<Vec<u8>> {
-    let files = fs::read_dir(fixtures().join("wav-variants"))
+    let files = fs::read_dir(folder("fixtures").join("wav-variants"))
         .unwrap()
         .map(|f| f.unwrap().path());
     let mut files: Vec<_> = files
@@ -270,7 +270,7 @@ fn variants() -> Vec<Vec<u8>> {
 /// The presets, and each again so short that it is rendered.
 fn scenes() -> Vec<Vec<u8>> {
     let names = bounce_audio::synth::presets::names();
-    let folder = fixtures().join("scenes");
+    let folder = folder("assets/scenes");
     let texts = names.map(|name| fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap());
     let all = texts.flat_map(|text| {
         let short = text.lines().map(|line| match line.split(' ').next() {
