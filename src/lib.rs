@@ -141,5 +141,5 @@ mod units;
 pub use analysis::{Listener, Settings, analyze, analyze_clearest};
 pub use error::Error;
 pub use fit::ladder::Choice as ModelChoice;
-pub use report::{Analysis, Drop, Warning};
+pub use report::{Analysis, Drop, Report, Warning, WarningCode};
 pub use timing::Timing;

@@ -3,14 +3,15 @@
 /// What a core without features promises.
 pub mod core {
     use bounce_audio::physics::{Ball, BounceSeries, Oscillator, Restitution};
-    use bounce_audio::report::{self, Report};
+    use bounce_audio::report;
     use bounce_audio::{
-        Analysis, Drop, Error, Listener, ModelChoice, Settings, Timing, Warning, analyze,
-        analyze_clearest,
+        Analysis, Drop, Error, Listener, ModelChoice, Report, Settings, Timing, Warning,
+        WarningCode, analyze, analyze_clearest,
     };
 
     pub type Heard = Result<(usize, Analysis), Error>;
     pub type Numbers = (Ball, BounceSeries, Oscillator, Restitution);
+    pub const CODE: fn(&Warning) -> WarningCode = |warning| warning.code;
     pub const VERSION: u32 = report::SCHEMA_VERSION;
     pub const ANALYZE: fn(&[f32], f64, &Settings) -> Result<Analysis, Error> = analyze;
     pub const ANALYZE_CLEAREST: fn(&[Vec<f32>], f64, &Settings) -> Heard = analyze_clearest;
