@@ -368,5 +368,5 @@ fn infinite_where_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64
     Option::deserialize(deserializer).map(|number| number.unwrap_or(f64::INFINITY))
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "lab"))]
 mod tests;
