@@ -10,9 +10,9 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Instant;
 
-use bounce_audio::analysis::{Listener, Settings};
 use bounce_audio::audio::Stream;
 use bounce_audio::synth::{render, scene};
+use bounce_audio::{Listener, Settings};
 
 const DURATION_S: usize = 600;
 const RATE_HZ: usize = 44_100;

@@ -5,18 +5,26 @@
 //! ```
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
-use bounce_audio::Error;
-use bounce_audio::analysis::{Settings, analyze};
-use bounce_audio::units::samples_in;
+use bounce_audio::{Error, Settings, analyze};
 
 const RATE_HZ: f64 = 44_100.0;
 
+/// The sample at a time.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "times are positive and of a few seconds"
+)]
+fn at(time_s: f64) -> usize {
+    (time_s * RATE_HZ).round() as usize
+}
+
 /// What a microphone would give: a short ring at each impact of a ball with e = 0.85.
 fn samples() -> Vec<f32> {
-    let mut samples = vec![0.0; samples_in(4.0, RATE_HZ)];
+    let mut samples = vec![0.0; at(4.0)];
     let (mut at_s, mut flight_s, mut level) = (0.4, 0.45, 0.5_f32);
     while flight_s > 0.01 {
-        let from = samples_in(at_s, RATE_HZ);
+        let from = at(at_s);
         for (sample, i) in samples[from..].iter_mut().zip(0..100_u8) {
             let phase = 0.6 * f32::from(i);
             *sample += level * (-0.1 * phase).exp() * phase.sin();
@@ -30,8 +38,7 @@ fn samples() -> Vec<f32> {
 
 /// Makes the samples, listens to them, and prints what was found.
 pub(crate) fn main() -> Result<(), Error> {
-    let mut settings = Settings::default();
-    settings.mass_kg = Some(2.7e-3);
+    let settings = Settings::default().mass_kg(2.7e-3);
     let analysis = analyze(&samples(), RATE_HZ, &settings)?;
 
     for drop in &analysis.drops {

@@ -15,6 +15,7 @@
 use std::sync::Mutex;
 use std::thread;
 
+use bounce_audio::fit::ModelKind;
 use bounce_audio::fit::flights::Impact;
 use bounce_audio::fit::ladder::{Choice, Climb, Inputs, climb};
 use bounce_audio::physics::{
@@ -69,13 +70,13 @@ impl Ball {
         }
     }
 
-    fn rung(self) -> &'static str {
+    fn rung(self) -> ModelKind {
         match self {
-            Self::Constant => "constant",
-            Self::Contact { .. } => "contact",
-            Self::Drag { .. } => "drag",
-            Self::Linear { .. } => "linear",
-            Self::Viscoelastic => "viscoelastic",
+            Self::Constant => ModelKind::Constant,
+            Self::Contact { .. } => ModelKind::Contact,
+            Self::Drag { .. } => ModelKind::Drag,
+            Self::Linear { .. } => ModelKind::Linear,
+            Self::Viscoelastic => ModelKind::Viscoelastic,
         }
     }
 
@@ -339,9 +340,9 @@ fn holds(climb: &Climb, ln_e: f64) -> bool {
 }
 
 /// Whether this rung was taken, or one that cannot be told from it.
-fn is_right(climb: &Climb, rung: &str) -> bool {
-    let gain = |name: &str| {
-        let found = climb.candidates.iter().find(|c| c.model == name);
+fn is_right(climb: &Climb, rung: ModelKind) -> bool {
+    let gain = |kind: ModelKind| {
+        let found = climb.candidates.iter().find(|c| c.model == kind);
         found.map_or(f64::NEG_INFINITY, |c| c.gain_nats)
     };
     climb.selected == rung || gain(climb.selected) - gain(rung) < ALIKE

@@ -5,9 +5,8 @@
 //! ```
 #![allow(clippy::print_stdout, reason = "an example prints")]
 
-use bounce_audio::Error;
-use bounce_audio::analysis::{Settings, analyze};
 use bounce_audio::synth::{presets::preset, render};
+use bounce_audio::{Error, Settings, analyze};
 
 /// Makes a recording and compares what is found in it with what is true.
 pub(crate) fn main() -> Result<(), Error> {

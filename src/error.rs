@@ -1,6 +1,5 @@
-//! The one error type of the library: variants carry facts, sentences are made here.
-
-use std::path::PathBuf;
+//! The one error type of the library: variants carry facts, sentences are made here. What only a feature can meet is there
+//! with that feature alone.
 
 /// What can go wrong. Messages are lower case without a full stop, so that causes chain with `: `.
 #[derive(Debug, thiserror::Error)]
@@ -30,25 +29,17 @@ pub enum Error {
     },
     /// The content of a WAV file breaks its own format.
     #[error("not a readable WAV: {problem}")]
+    #[cfg(feature = "audio")]
     Wav {
         /// What is wrong with it.
         problem: String,
     },
     /// What is no WAV cannot be read.
     #[error("not a readable recording: {problem}")]
+    #[cfg(feature = "audio")]
     Recording {
         /// Why not, and what converts it.
         problem: String,
-    },
-    /// Fewer impacts than a computation needs.
-    #[error("found {found} impacts, {purpose} needs at least {needed}")]
-    TooFewImpacts {
-        /// How many there are.
-        found: usize,
-        /// How many it takes.
-        needed: usize,
-        /// What they were needed for.
-        purpose: &'static str,
     },
     /// A line of a text is not what it should be.
     #[error("line {line}: {problem}")]
@@ -60,24 +51,28 @@ pub enum Error {
     },
     /// A picture could not be drawn.
     #[error("cannot draw: {problem}")]
+    #[cfg(feature = "plots")]
     Plot {
         /// Why not.
         problem: String,
     },
     /// Doing what was asked would lose something, or there is nothing to do it with.
     #[error("{problem}")]
+    #[cfg(feature = "cli")]
     Refused {
         /// Why, and what to do about it.
         problem: String,
     },
     /// Reading or writing failed.
     #[error(transparent)]
+    #[cfg(feature = "audio")]
     Io(#[from] std::io::Error),
     /// An error that happened while working on one file.
-    #[error("{}: {source}", path.display())]
+    #[error("{file}: {source}")]
+    #[cfg(feature = "audio")]
     InFile {
-        /// The file.
-        path: PathBuf,
+        /// The name of the file.
+        file: String,
         /// What happened to it.
         source: Box<Error>,
     },
@@ -103,18 +98,10 @@ impl Error {
     }
 
     /// An [`Error::Refused`].
+    #[cfg(feature = "cli")]
     pub(crate) fn refused(problem: impl Into<String>) -> Self {
         Self::Refused {
             problem: problem.into(),
-        }
-    }
-
-    /// Says in which file this error happened.
-    #[must_use]
-    pub fn in_file(self, path: impl Into<PathBuf>) -> Self {
-        Self::InFile {
-            path: path.into(),
-            source: Box::new(self),
         }
     }
 }

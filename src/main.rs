@@ -5,6 +5,7 @@ use std::panic;
 use std::process::ExitCode;
 
 use bounce_audio::Error;
+use bounce_audio::audio::is_guarded;
 use bounce_audio::cli::{Outcome, run};
 
 fn main() -> ExitCode {
@@ -19,14 +20,11 @@ fn main() -> ExitCode {
     }
 }
 
-/// Keeps quiet about panics of the decoders: they are caught, and told as damage of the file.
+/// Keeps quiet about panics that are caught: those of the decoders, which are told as damage of the file.
 fn spare_what_is_caught() {
     let usual = panic::take_hook();
     panic::set_hook(Box::new(move |info| {
-        let of_decoder = info
-            .location()
-            .is_some_and(|at| at.file().contains("symphonia"));
-        if !of_decoder {
+        if !is_guarded() {
             usual(info);
         }
     }));

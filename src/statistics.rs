@@ -38,6 +38,24 @@ fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     sorted
 }
 
+/// Where a function that grows between two ends passes a value, `is_below` saying on which side of it a place is: the range is
+/// halved so often.
+pub(crate) fn bisected(
+    (mut low, mut high): (f64, f64),
+    halvings: usize,
+    is_below: impl Fn(f64) -> bool,
+) -> f64 {
+    for _ in 0..halvings {
+        let middle = 0.5 * (low + high);
+        if is_below(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

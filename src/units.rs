@@ -1,60 +1,6 @@
-//! Instants, intervals, counts and quantities with units: the only place where samples become seconds.
-
-use std::ops::{Add, Sub};
+//! Counts and quantities with units: the only place where samples become seconds.
 
 use crate::Error;
-
-/// A point in time, in seconds from the first sample of the recording.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, serde::Serialize)]
-#[serde(transparent)]
-pub struct Instant(f64);
-
-/// A signed span between two [`Instant`]s, in seconds.
-#[derive(Debug, Clone, Copy, PartialEq, PartialOrd, serde::Serialize)]
-#[serde(transparent)]
-pub struct Interval(f64);
-
-impl Instant {
-    /// The instant `s` seconds after the first sample.
-    #[must_use]
-    pub const fn seconds(s: f64) -> Self {
-        Self(s)
-    }
-
-    /// Seconds from the first sample.
-    #[must_use]
-    pub const fn s(self) -> f64 {
-        self.0
-    }
-}
-
-impl Interval {
-    /// A span of `s` seconds.
-    #[must_use]
-    pub const fn seconds(s: f64) -> Self {
-        Self(s)
-    }
-
-    /// The span in seconds.
-    #[must_use]
-    pub const fn s(self) -> f64 {
-        self.0
-    }
-}
-
-impl Sub for Instant {
-    type Output = Interval;
-    fn sub(self, earlier: Self) -> Interval {
-        Interval(self.0 - earlier.0)
-    }
-}
-
-impl Add<Interval> for Instant {
-    type Output = Self;
-    fn add(self, span: Interval) -> Self {
-        Self(self.0 + span.0)
-    }
-}
 
 /// A count as a real number.
 ///
@@ -234,11 +180,5 @@ mod tests {
                 "{text}: {error}"
             );
         }
-    }
-
-    #[test]
-    fn an_instant_and_an_interval_make_an_instant() {
-        let start = Instant::seconds(1.5);
-        assert_eq!((start + Interval::seconds(0.25) - start).s(), 0.25);
     }
 }

@@ -1,6 +1,5 @@
 //! Real recordings and what is known of them. They are not part of the project: this runs with
 //! `cargo test --features recordings` where `BOUNCE_AUDIO_RECORDINGS` names their folder.
-#![cfg(feature = "recordings")]
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
@@ -10,9 +9,9 @@
 
 use std::path::PathBuf;
 
-use bounce_audio::analysis::{Settings, analyze_clearest};
 use bounce_audio::audio;
 use bounce_audio::report::{Analysis, Drop, Status};
+use bounce_audio::{Settings, analyze_clearest};
 
 fn listen(name: &str, settings: &Settings) -> Analysis {
     let folder = std::env::var_os("BOUNCE_AUDIO_RECORDINGS")
@@ -108,8 +107,7 @@ fn the_ball_from_90_cm_is_found_between_the_handling_noises() {
 
 #[test]
 fn the_ball_from_50_cm_is_cut_off_and_that_is_said() {
-    let mut settings = Settings::default();
-    settings.height_m = Some(0.5);
+    let settings = Settings::default().height_m(0.5);
     let analysis = listen("pfe-0.5m.wav", &settings);
     assert_eq!(analysis.drops.len(), 1);
     let drop = &analysis.drops[0];

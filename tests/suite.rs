@@ -12,13 +12,13 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
-use bounce_audio::analysis::{Settings, analyze_clearest};
 use bounce_audio::evaluate::reference::Reference;
 use bounce_audio::evaluate::rows::{Evaluation, Tier};
 use bounce_audio::evaluate::scores::{FileScore, score};
 use bounce_audio::evaluate::thresholds::Thresholds;
 use bounce_audio::synth::presets::{names, preset};
 use bounce_audio::synth::render;
+use bounce_audio::{Settings, analyze_clearest};
 
 const SEEDS: [u64; 2] = [1, 2];
 

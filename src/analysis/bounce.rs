@@ -1,23 +1,14 @@
 //! What the two flights beside an impact say of it: speeds, e and the energy kept, with the errors of the times.
 
 use crate::fit::flights::{Flights, Impact as Timed};
+use crate::physics::BallModel;
 use crate::physics::ends::Ends;
 use crate::report::Bounce;
 
-/// What is taken out of the intervals: the selected model's terms, 0 where it has none.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Corrections {
-    /// C, the time in contact, in seconds.
-    pub contact_s: f64,
-    /// K, the drag of the air, in s⁻².
-    pub drag_per_s2: f64,
-}
-
-impl Corrections {
-    /// Both ends of a flight whose ends are so far apart; none if that is no longer than the contact.
-    pub(super) fn ends(self, interval_s: f64) -> Option<Ends> {
-        Ends::of(interval_s - self.contact_s, self.drag_per_s2)
-    }
+/// Both ends of the flight in an interval between impacts, by the model of the ball: without one, of a ball whose contact
+/// takes no time in no air.
+pub(super) fn ends(ball: Option<&BallModel>, interval_s: f64) -> Option<Ends> {
+    ball.map_or_else(|| Ends::of(interval_s, 0.0), |ball| ball.ends(interval_s))
 }
 
 /// The bounce at impact `number`, counted from 0.
@@ -28,17 +19,17 @@ impl Corrections {
 /// σ_w/w = w′·√(s₀² + s₁²),   σ_u/u = u′·√(s₁² + s₂²)
 /// (σ_e/e)² = (w′·s₀)² + ((w′ + u′)·s₁)² + (u′·s₂)²,   energy kept e²,   σ = 2e·σ_e
 /// ```
-/// D are the intervals between impacts, s₀, s₁ and s₂ the standard errors of the times before, at and after this impact,
+/// D are the intervals between impacts, C is the contact time of the model in them, s₀, s₁ and s₂ the standard errors of the times before, at and after this impact,
 /// u′ and w′ the derivatives of ln u and ln w by the interval, 1/T without drag. A late time makes the flight before it
 /// longer and the one after it shorter, so its two parts add. C, K and g count as exact.
 pub(super) fn bounce(
     timed: &[Timed],
     flights: &Flights,
     number: usize,
-    corrections: Corrections,
+    ball: Option<&BallModel>,
     gravity_m_per_s2: f64,
 ) -> Bounce {
-    let ends = |flight: Option<usize>| corrections.ends(flights.after(flight?)?);
+    let ends = |flight: Option<usize>| ends(ball, flights.after(flight?)?);
     let (before, after) = (ends(number.checked_sub(1)), ends(Some(number)));
     let std = |impact: usize| timed[impact].std_s;
     let speed = |ln: f64| 0.5 * gravity_m_per_s2 * ln.exp();
@@ -89,7 +80,7 @@ pub(super) fn rebound_height_std_m(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::physics::FlightLaw;
+    use crate::physics::{Bounce as Bouncing, FlightLaw, Restitution, RestitutionLaw};
     use crate::random::SplitMix64;
 
     const G: f64 = 9.81;
@@ -103,14 +94,24 @@ mod tests {
         times_s.iter().map(impact).collect()
     }
 
+    /// A ball that has this contact and drag.
+    fn ball(contact_time_s: f64, drag_per_s2: f64) -> BallModel {
+        let restitution = RestitutionLaw::Constant(Restitution::new(0.9).unwrap());
+        let bounce = Bouncing::Given {
+            restitution,
+            contact_time_s,
+        };
+        BallModel::new(FlightLaw::with_drag(G, drag_per_s2).unwrap(), bounce).unwrap()
+    }
+
     /// The second impact of these.
-    fn second(timed: &[Timed], corrections: Corrections) -> Bounce {
-        bounce(timed, &Flights::between(timed), 1, corrections, G)
+    fn second(timed: &[Timed], ball: Option<&BallModel>) -> Bounce {
+        bounce(timed, &Flights::between(timed), 1, ball, G)
     }
 
     #[test]
     fn without_air_and_contact_speeds_are_half_of_g_times_the_flights() {
-        let found = second(&timed(&[0.0, 0.5, 0.9], 1e-4), Corrections::default());
+        let found = second(&timed(&[0.0, 0.5, 0.9], 1e-4), None);
         for (value, expected) in [
             (found.impact_speed_m_per_s, 0.25 * G),
             (found.rebound_speed_m_per_s, 0.2 * G),
@@ -128,11 +129,8 @@ mod tests {
         let rebound = 0.9 * first.landing_speed_m_per_s;
         let arrival_s = first.time_s + contact_s;
         let next_s = arrival_s + law.hop(rebound).unwrap().time_s + contact_s;
-        let corrections = Corrections {
-            contact_s,
-            drag_per_s2: (G / 8.0).powi(2),
-        };
-        let found = second(&timed(&[0.0, arrival_s, next_s], 1e-6), corrections);
+        let ball = ball(contact_s, (G / 8.0).powi(2));
+        let found = second(&timed(&[0.0, arrival_s, next_s], 1e-6), Some(&ball));
         assert!((found.restitution.unwrap() - 0.9).abs() < 1e-9);
         assert!((found.rebound_speed_m_per_s.unwrap() - rebound).abs() < 1e-9);
         let arrival = found.impact_speed_m_per_s.unwrap();
@@ -156,10 +154,7 @@ mod tests {
     #[test]
     fn errors_are_those_of_times_that_err() {
         const STD_S: f64 = 1e-4;
-        let corrections = Corrections {
-            contact_s: 1e-3,
-            drag_per_s2: 1.4,
-        };
+        let ball = ball(1e-3, 1.4);
         type Read = fn(&Bounce) -> Option<f64>;
         let pairs: [(Read, Read); 4] = [
             (|b| b.impact_speed_m_per_s, |b| b.impact_speed_std_m_per_s),
@@ -167,9 +162,9 @@ mod tests {
             (|b| b.restitution, |b| b.restitution_std),
             (|b| b.energy_kept, |b| b.energy_kept_std),
         ];
-        let stated = second(&timed(&[0.0, 0.5, 0.9], STD_S), corrections);
+        let stated = second(&timed(&[0.0, 0.5, 0.9], STD_S), Some(&ball));
         for (i, (value, std)) in pairs.into_iter().enumerate() {
-            let seen = scattered(|t| value(&second(t, corrections)).unwrap(), STD_S);
+            let seen = scattered(|t| value(&second(t, Some(&ball))).unwrap(), STD_S);
             let stated = std(&stated).unwrap();
             // The standard deviation of 4000 tries errs by 1.1 %.
             assert!((stated / seen - 1.0).abs() < 0.05, "{i}: {stated} {seen}");
@@ -183,23 +178,12 @@ mod tests {
     #[test]
     fn what_has_no_flight_beside_it_is_null() {
         let times = timed(&[0.0, 0.5, 0.9], 1e-6);
-        let at = |number| {
-            bounce(
-                &times,
-                &Flights::between(&times),
-                number,
-                Corrections::default(),
-                G,
-            )
-        };
+        let at = |number| bounce(&times, &Flights::between(&times), number, None, G);
         let (first, last) = (at(0), at(2));
         assert!(first.impact_speed_m_per_s.is_none() && first.restitution.is_none());
         assert!(first.rebound_speed_m_per_s.is_some() && first.energy_kept_std.is_none());
         assert!(last.impact_speed_m_per_s.is_some() && last.rebound_speed_m_per_s.is_none());
-        let long = Corrections {
-            contact_s: 0.45,
-            ..Corrections::default()
-        };
-        assert!(second(&times, long).rebound_speed_m_per_s.is_none());
+        let long = ball(0.45, 0.0);
+        assert!(second(&times, Some(&long)).rebound_speed_m_per_s.is_none());
     }
 }

@@ -1,43 +1,86 @@
 //! One drop: its impacts timed and measured, its restitution fitted.
 
 use super::agreement::Agreement;
-use super::bounce::{Corrections, bounce, rebound_height_std_m};
+use super::bounce::{bounce, rebound_height_std_m};
+use super::model::Modelled;
 use super::tail::Followed;
 use super::{Settings, Stretch, model, rejected, warnings};
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{self, Missing, TotalTime};
-use crate::report::{Drop, Estimates, Impact, Scatter, Status, Warning};
+use crate::physics::BallModel;
+use crate::report::{Drop, Estimates, Impact, Rejected, Scatter, Status, Warning, WarningCode};
 use crate::sequence::{Chain, Link};
 use crate::statistics::upper_median;
 use crate::timing::Timing;
 
-/// A drop, as far as it can be known before the recording ends.
+/// What was measured of a drop. What is made of it depends on where the recording ends, which is known last.
 #[derive(Debug, Clone)]
 pub(super) struct Measured {
-    /// The drop.
-    pub drop: Drop,
-    /// How well the ways to e agree.
-    agreement: Option<Agreement>,
-    /// How long the ball would have gone on after its last impact, in seconds.
-    left_s: Option<f64>,
+    /// Index of the channel that it was heard on.
+    pub channel: usize,
+    /// The impacts in order of time.
+    pub impacts: Vec<Impact>,
+    /// Evidence that it is a drop, in nats.
+    pub evidence_nats: f64,
+    timed: Vec<Timed>,
+    bounces: usize,
+    rejected: Vec<Rejected>,
+    modelled: Modelled,
+    /// What impacts and sound call for.
+    warnings: Vec<Warning>,
+    /// That the impacts were given.
+    pub given: Option<Warning>,
 }
 
 impl Measured {
-    /// The drop in a recording that was listened to up to `end_s`: if the ball would go on longer, there is no end.
-    pub(super) fn until(self, end_s: f64) -> Drop {
-        let (mut drop, mut agreement) = (self.drop, self.agreement);
-        if let Some(cut) = warnings::of_end(&drop, self.left_s, end_s) {
-            drop.total_time_s = None;
-            (drop.estimates.eq25, drop.estimates.eq30) = (None, None);
-            // That the recording ends early says it all.
-            drop.warnings.retain(|w| w.code != "ended_early");
-            drop.warnings.push(cut);
-            agreement = agreement.map(Agreement::without_end);
-        }
-        drop.warnings.extend(agreement.and_then(|a| a.warning()));
-        drop
+    /// The drop in a recording that was listened to up to `end_s`: if the ball would go on longer, there is no end and no
+    /// total time.
+    pub(super) fn until(self, end_s: f64, settings: &Settings) -> Result<Drop, Error> {
+        let (timed, modelled) = (&self.timed, self.modelled);
+        let flights = Flights::between(timed);
+        let ratio = flights.ratio();
+        let cut = warnings::of_end(timed, &flights, ratio, end_s);
+        let height = match (ratio, settings.height_m) {
+            (Some(ratio), Some(height_m)) => {
+                by_height(timed, &flights, ratio.value, height_m, settings)?
+            }
+            _ => ByHeight::default(),
+        };
+        let total = height.total.filter(|_| cut.is_none());
+        let estimates = estimates(ratio, total, height.first_rebound);
+        let agreement = Agreement::of(timed, &flights, &estimates, &modelled, settings)?;
+        // That the recording ends early says it all.
+        let of_height = height
+            .warning
+            .filter(|w| cut.is_none() || w.code != WarningCode::EndedEarly);
+        let mut warnings = self.warnings;
+        warnings.extend(of_height);
+        warnings.extend(modelled.warnings);
+        warnings.extend(self.given);
+        warnings.extend(cut);
+        warnings.extend(agreement.and_then(|a| a.warning()));
+        Ok(Drop {
+            channel: self.channel + 1,
+            bounces: self.bounces,
+            observed_time_s: timed.last().map_or(0.0, |i| i.time_s)
+                - timed.first().map_or(0.0, |i| i.time_s),
+            total_time_s: total.map(|t| t.total_time_s),
+            restitution: modelled.restitution,
+            estimates,
+            scatter: Scatter {
+                timing_std_s: median_std(timed),
+                bounce_std: modelled.bounce_std,
+            },
+            model: modelled.model,
+            ball: modelled.ball,
+            budget: modelled.budget,
+            evidence_nats: self.evidence_nats,
+            rejected: self.rejected,
+            warnings,
+            impacts: self.impacts,
+        })
     }
 }
 
@@ -49,63 +92,36 @@ pub(super) fn measure(
     settings: &Settings,
 ) -> Result<Measured, Error> {
     let timed = times(stretch, followed, settings);
-    fit(stretch, &followed.chain, &timed, channel, settings)
+    fit(stretch, &followed.chain, timed, channel, settings)
 }
 
 /// Fits the impacts of a chain, which have these times.
 pub(super) fn fit(
     stretch: &Stretch<'_>,
     chain: &Chain,
-    timed: &[Timed],
+    timed: Vec<Timed>,
     channel: usize,
     settings: &Settings,
 ) -> Result<Measured, Error> {
-    let flights = Flights::between(timed);
-    let ratio = flights.ratio();
-    let mut warnings = warnings::of_chain(stretch, timed, chain);
-    warnings.extend(warnings::of_contact(settings.contact_time_s, timed));
-    let (total, first_rebound) = match (ratio, settings.height_m) {
-        (Some(ratio), Some(height_m)) => {
-            let height = by_height(timed, &flights, ratio.value, height_m, settings)?;
-            warnings.extend(height.warning);
-            (height.total, height.first_rebound)
-        }
-        _ => (None, None),
-    };
-    let estimates = estimates(ratio, total, first_rebound);
-    let modelled = model::fitted(timed, settings)?;
-    let agreement = Agreement::of(timed, &flights, &estimates, &modelled, settings)?;
-    let corrections = modelled.corrections();
-    warnings.extend(modelled.warnings);
-    let gravity = settings.gravity_m_per_s2;
-    let drop = Drop {
-        channel: channel + 1,
-        bounces: chain.heard(),
-        observed_time_s: timed.last().map_or(0.0, |i| i.time_s)
-            - timed.first().map_or(0.0, |i| i.time_s),
-        total_time_s: total.map(|t| t.total_time_s),
-        restitution: modelled.restitution,
-        estimates,
-        scatter: Scatter {
-            timing_std_s: median_std(timed),
-            bounce_std: modelled.bounce_std,
-        },
-        model: modelled.model,
-        ball: modelled.ball,
-        budget: modelled.budget,
-        evidence_nats: chain.evidence,
-        rejected: chain.rejected.iter().map(rejected).collect(),
-        warnings,
-        impacts: impacts(stretch, chain, timed, &flights, corrections, gravity),
-    };
+    let modelled = model::fitted(&timed, settings)?;
+    let mut warnings = warnings::of_chain(stretch, &timed, chain);
+    warnings.extend(warnings::of_contact(settings.contact_time_s, &timed));
+    let ball = modelled.ball_model.as_ref();
     Ok(Measured {
-        drop,
-        agreement,
-        left_s: ratio.map(|r| total_time::left_s(timed, &flights, r.value)),
+        channel,
+        impacts: impacts(stretch, chain, &timed, ball, settings.gravity_m_per_s2),
+        evidence_nats: chain.evidence,
+        bounces: chain.heard(),
+        rejected: chain.rejected.iter().map(rejected).collect(),
+        modelled,
+        warnings,
+        given: None,
+        timed,
     })
 }
 
 /// What a height adds.
+#[derive(Debug, Default)]
 pub(super) struct ByHeight {
     pub total: Option<TotalTime>,
     pub first_rebound: Option<Estimate>,
@@ -194,10 +210,10 @@ fn impacts(
     stretch: &Stretch<'_>,
     chain: &Chain,
     timed: &[Timed],
-    flights: &Flights,
-    corrections: Corrections,
+    ball: Option<&BallModel>,
     gravity: f64,
 ) -> Vec<Impact> {
+    let flights = &Flights::between(timed);
     let status = |link: &Link| match (link.event, link.doubtful) {
         (None, _) => Status::Inferred,
         (Some(_), true) => Status::Doubtful,
@@ -223,7 +239,7 @@ fn impacts(
                 ratio: flight.zip(before).map(|(now, before)| now / before),
                 rebound_height_m: flight.map(|t| gravity * t * t / 8.0),
                 rebound_height_std_m: rebound_height_std_m(timed, flights, i, gravity),
-                bounce: bounce(timed, flights, i, corrections, gravity),
+                bounce: bounce(timed, flights, i, ball, gravity),
                 status: status(link),
             }
         })
@@ -241,12 +257,30 @@ fn level_db(stretch: &Stretch<'_>, time_s: f64) -> Option<f64> {
 }
 
 #[cfg(test)]
-impl From<Drop> for Measured {
-    fn from(drop: Drop) -> Self {
+impl Measured {
+    /// A drop of one impact of which nothing is known but its evidence.
+    pub(super) fn with_evidence(evidence_nats: f64) -> Self {
+        let impact = Impact {
+            time_s: 1.0,
+            time_std_s: None,
+            level_db: None,
+            interval_s: None,
+            ratio: None,
+            rebound_height_m: None,
+            rebound_height_std_m: None,
+            bounce: crate::report::Bounce::default(),
+            status: Status::Heard,
+        };
         Self {
-            drop,
-            agreement: None,
-            left_s: None,
+            channel: 0,
+            impacts: vec![impact],
+            evidence_nats,
+            timed: Vec::new(),
+            bounces: 0,
+            rejected: Vec::new(),
+            modelled: Modelled::default(),
+            warnings: Vec::new(),
+            given: None,
         }
     }
 }

@@ -1,8 +1,10 @@
 //! What was found so far, scene by scene, and what it comes to in the end.
 
+use super::Settings;
 use super::drop::Measured;
 use super::scene::{Heard, clearest};
 use super::warnings::{self, Heard as Sounds};
+use crate::Error;
 use crate::report::{Analysis, Rejected};
 
 /// How many rejected events of a recording are named, the strongest; the rest is counted.
@@ -43,7 +45,7 @@ impl Findings {
 
     /// Adds what was heard in the next scene.
     pub(super) fn add(&mut self, heard: Heard) {
-        let impacts = heard.drops.iter().flat_map(|m| &m.drop.impacts);
+        let impacts = heard.drops.iter().flat_map(|m| &m.impacts);
         self.told_s = impacts.map(|i| i.time_s).collect();
         self.told_s.sort_by(f64::total_cmp);
         self.impacts += self.told_s.len();
@@ -61,10 +63,10 @@ impl Findings {
 
     fn keep_the_surest(&mut self) {
         while self.impacts > MOST_IMPACTS {
-            let evidence = |i: &usize| self.drops[*i].drop.evidence_nats;
+            let evidence = |i: &usize| self.drops[*i].evidence_nats;
             let weakest = (0..self.drops.len()).min_by(|a, b| evidence(a).total_cmp(&evidence(b)));
             let Some(weakest) = weakest else { return };
-            self.impacts -= self.drops.remove(weakest).drop.impacts.len();
+            self.impacts -= self.drops.remove(weakest).impacts.len();
             self.left_out += 1;
         }
     }
@@ -78,7 +80,14 @@ impl Findings {
     }
 
     /// The whole of it, and the channel that most of it was heard on; listening ended at `end_s`.
-    pub(super) fn analysis(mut self, end_s: f64) -> (usize, Analysis) {
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a setting out of range.
+    pub(super) fn analysis(
+        mut self,
+        end_s: f64,
+        settings: &Settings,
+    ) -> Result<(usize, Analysis), Error> {
         let channel = self.channel();
         self.rejected
             .sort_by(|a, b| a.1.time_s.total_cmp(&b.1.time_s));
@@ -87,21 +96,21 @@ impl Findings {
             warnings.push(self.sounds.warning());
         }
         warnings.extend(warnings::of_memory(self.left_out, self.torn));
+        let drops = self.drops.into_iter().map(|m| m.until(end_s, settings));
         let analysis = Analysis {
-            drops: self.drops.into_iter().map(|m| m.until(end_s)).collect(),
+            drops: drops.collect::<Result<_, Error>>()?,
             rejected: self.rejected.into_iter().map(|(_, r)| r).collect(),
             rejected_weak: self.weak,
-            rule: None,
             warnings,
         };
-        (channel, analysis)
+        Ok((channel, analysis))
     }
 
     /// The channel of most drops; of several, or where there are none, the clearest.
     fn channel(&self) -> usize {
         let mut counts = vec![0_usize; self.clarities.len()];
         for m in &self.drops {
-            counts[m.drop.channel - 1] += 1;
+            counts[m.channel] += 1;
         }
         let most = counts.iter().copied().max().unwrap_or(0);
         let of_most = |(count, clarity): (&usize, &f64)| {
@@ -119,35 +128,19 @@ impl Findings {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::{Settings, analyze};
-
-    /// A drop of eight clicks at 8 kHz that begins after some seconds, in silence.
-    fn clicks(start_s: f64, first_flight_s: f64) -> Vec<f32> {
-        let mut samples = vec![0.0; 160_000];
-        let (mut at_s, mut flight_s) = (start_s, first_flight_s);
-        for _ in 0..8 {
-            samples[crate::units::samples_in(at_s, 8_000.0)] = 0.5;
-            at_s += flight_s;
-            flight_s *= 0.8;
-        }
-        samples
-    }
+    use crate::report::WarningCode;
 
     #[test]
     fn past_the_limit_the_drops_with_the_least_evidence_go_and_are_counted() {
-        let analysis = analyze(&clicks(1.0, 0.5), 8_000.0, &Settings::default()).unwrap();
-        let drop = &analysis.drops[0];
         let mut findings = Findings::new(1);
         findings.impacts = MOST_IMPACTS + 1;
         for evidence in [30.0, 20.0, 40.0] {
-            let mut drop = drop.clone();
-            drop.evidence_nats = evidence;
-            findings.drops.push(Measured::from(drop));
+            findings.drops.push(Measured::with_evidence(evidence));
         }
         findings.keep_the_surest();
-        let (_, analysis) = findings.analysis(20.0);
+        let (_, analysis) = findings.analysis(20.0, &Settings::default()).unwrap();
         let left: Vec<f64> = analysis.drops.iter().map(|d| d.evidence_nats).collect();
         assert_eq!(left, [30.0, 40.0]);
-        assert_eq!(analysis.warnings[0].code, "left_out");
+        assert_eq!(analysis.warnings[0].code, WarningCode::LeftOut);
     }
 }

@@ -3,9 +3,10 @@
 use super::drop::{Measured, fit};
 use super::{Settings, Stretch};
 use crate::Error;
+use crate::detect;
 use crate::fit::flights::Impact as Timed;
 use crate::report::labels::Marked;
-use crate::report::{Analysis, Status, Warning};
+use crate::report::{Analysis, Status, Warning, WarningCode};
 use crate::sequence::{Chain, Link};
 use crate::units::real;
 
@@ -37,7 +38,7 @@ pub fn analyze_labelled<C: AsRef<[f32]>>(
             sample_rate_hz,
             start_s: 0.0,
             listened_from_s: 0.0,
-            hop_s: settings.detect.hop_s,
+            hop_s: detect::Settings::default().hop_s,
         })
         .collect();
     let by_loudness = |a: &usize, b: &usize| {
@@ -54,13 +55,13 @@ pub fn analyze_labelled<C: AsRef<[f32]>>(
         .map(|d| measured(stretch, d, channel, settings));
     let fitted = fitted.collect::<Result<Vec<Measured>, Error>>()?;
     let end_s = stretch.end_s();
+    let drops = fitted.into_iter().map(|m| m.until(end_s, settings));
     Ok((
         channel,
         Analysis {
-            drops: fitted.into_iter().map(|m| m.until(end_s)).collect(),
+            drops: drops.collect::<Result<_, Error>>()?,
             rejected: Vec::new(),
             rejected_weak: 0,
-            rule: None,
             warnings: Vec::new(),
         },
     ))
@@ -109,8 +110,8 @@ fn measured(
         heard: m.status != Status::Inferred,
     };
     let timed: Vec<Timed> = marked.iter().map(timed).collect();
-    let mut measured = fit(stretch, &chain, &timed, channel, settings)?;
-    measured.drop.warnings.push(note(marked));
+    let mut measured = fit(stretch, &chain, timed, channel, settings)?;
+    measured.given = Some(note(marked));
     Ok(measured)
 }
 
@@ -121,7 +122,7 @@ fn note(marked: &[Marked]) -> Warning {
         "the impacts are those of the labels: {by_hand} of {} set or moved by hand",
         marked.len()
     );
-    Warning::new("impacts_given", message)
+    Warning::new(WarningCode::ImpactsGiven, message)
 }
 
 /// By how much the impacts are louder than the channel at large: the mean of ln(peak/rms).

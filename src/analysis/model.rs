@@ -1,35 +1,30 @@
 //! From the times of a drop to its restitution and its ball, by the model that the recording supports.
 
-use serde_json::{Map, Value};
-
 use super::Settings;
-use super::bounce::Corrections;
 use crate::Error;
 use crate::fit::Estimate;
-use crate::fit::bounces::Known;
 use crate::fit::flights::Impact;
 use crate::fit::ladder::{Climb, Inputs, climb};
 use crate::fit::model::{Budget, Parameter};
+use crate::physics::priors::{CONTACT_RELATIVE_STD, Known};
 use crate::physics::{
-    Air, ContactErrors, DRAG_RELATIVE_STD, FlightLaw, Oscillator, ParameterErrors,
-    Restitution as Ratio, Sphere,
+    Air, BallModel, ContactErrors, DRAG_RELATIVE_STD, FlightLaw, Oscillator, ParameterErrors,
+    ReleaseRule, Restitution as Ratio, Sphere,
 };
-use crate::report::{Ball, Model, Restitution, Warning};
+use crate::report::{
+    Ball, ContactSource, Given, Method, Model, Parameters, Restitution, Warning, WarningCode,
+};
 
 /// A contact time whose interval spans this factor or more is not determined.
 const UNDETERMINED: f64 = 3.0;
-/// A contact time that is given is taken to be right within 5 %, unless it is measured no one knows it better.
-const CONTACT_ERROR: f64 = 0.05;
 
 /// What is known of the ball, from the settings.
 pub(super) fn inputs(settings: &Settings) -> Result<Inputs, Error> {
-    let drag = law(settings)?.and_then(|law| {
-        let rate = law.gravity_m_per_s2() / law.terminal_speed_m_per_s()?;
-        Some(known(rate * rate, DRAG_RELATIVE_STD))
-    });
+    let law = law(settings)?;
+    let contact = settings.contact_time_s;
     Ok(Inputs {
-        contact_s: settings.contact_time_s.map(|t| known(t, CONTACT_ERROR)),
-        drag_per_s2: drag,
+        contact_s: contact.map(|t| Known::within(t, CONTACT_RELATIVE_STD)),
+        drag_per_s2: law.map(|law| Known::within(law.drag_per_s2(), DRAG_RELATIVE_STD)),
     })
 }
 
@@ -45,20 +40,15 @@ pub(super) fn law(settings: &Settings) -> Result<Option<FlightLaw>, Error> {
     FlightLaw::in_air(settings.gravity_m_per_s2, sphere, Air::default()).map(Some)
 }
 
-const fn known(value: f64, relative: f64) -> Known {
-    Known {
-        value,
-        std: value * relative,
-    }
-}
-
 /// The restitution of a drop and what hangs on it.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 pub(super) struct Modelled {
     pub restitution: Option<Restitution>,
     pub bounce_std: Option<f64>,
     pub model: Model,
     pub ball: Option<Ball>,
+    /// e and contact at every speed, and the flight.
+    pub ball_model: Option<BallModel>,
     pub budget: Option<Budget>,
     pub contact: Option<Parameter>,
     pub drag: Option<Parameter>,
@@ -67,31 +57,11 @@ pub(super) struct Modelled {
     pub warnings: Vec<Warning>,
 }
 
-impl Modelled {
-    /// What the model takes out of the intervals.
-    pub(super) fn corrections(&self) -> Corrections {
-        Corrections {
-            contact_s: self.contact.map_or(0.0, |p| p.value),
-            drag_per_s2: self.drag.map_or(0.0, |p| p.value),
-        }
-    }
-}
-
 /// Fits a drop.
 pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, Error> {
     let inputs = inputs(settings)?;
     let Some(climb) = climb(timed, &inputs, settings.model) else {
-        return Ok(Modelled {
-            restitution: None,
-            bounce_std: None,
-            model: Model::none(),
-            ball: None,
-            budget: None,
-            contact: None,
-            drag: None,
-            by_speed: false,
-            warnings: Vec::new(),
-        });
+        return Ok(Modelled::default());
     };
     let fit = &climb.fit;
     let estimate = exponential(&fit.ln_restitution);
@@ -101,17 +71,18 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
             estimate,
             at_speed_m_per_s: Some(0.5 * settings.gravity_m_per_s2 * fit.mean_speed_s),
             method: if told {
-                "least_squares"
+                Method::LeastSquares
             } else {
-                "single_ratio"
+                Method::SingleRatio
             },
         }),
         bounce_std: told.then_some(fit.bounce_std),
         ball: ball(&climb, &inputs, settings),
+        ball_model: Some(climb.ball(settings.gravity_m_per_s2)?),
         budget: told.then_some(fit.budget),
         contact: fit.contact_s,
         drag: fit.drag_per_s2,
-        by_speed: fit.exponent.is_some() || climb.selected == "viscoelastic",
+        by_speed: climb.selected.is_by_speed(),
         warnings: warnings(&climb),
         model: model(&climb, &inputs),
     })
@@ -128,37 +99,29 @@ fn exponential(ln: &Parameter) -> Estimate {
 
 fn model(climb: &Climb, inputs: &Inputs) -> Model {
     let fit = &climb.fit;
-    let mut parameters = Map::new();
-    parameters.insert(
-        "restitution".to_owned(),
-        fit.ln_restitution.value.exp().into(),
-    );
-    let mut add = |name: &str, parameter: Option<Parameter>| {
-        let Some(p) = parameter else { return };
-        let mut entry = Map::new();
-        entry.insert("value".to_owned(), p.value.into());
-        entry.insert("std_error".to_owned(), p.std.into());
-        entry.insert(
-            "interval95".to_owned(),
-            p.interval95.map(|ends| ends.to_vec()).into(),
-        );
-        parameters.insert(name.to_owned(), Value::Object(entry));
-    };
-    add("contact_time_s", fit.contact_s);
-    add("drag_per_s2", fit.drag_per_s2);
-    add("speed_exponent", fit.exponent);
+    let given = [
+        inputs.contact_s.map(|_| Given::ContactTime),
+        inputs.drag_per_s2.map(|_| Given::Drag),
+    ];
     Model {
         selected: climb.selected,
-        given: [
-            inputs.contact_s.map(|_| "contact_time"),
-            inputs.drag_per_s2.map(|_| "drag"),
-        ]
-        .into_iter()
-        .flatten()
-        .collect(),
-        parameters,
+        given: given.into_iter().flatten().collect(),
+        parameters: Parameters {
+            contact_time_s: fit.contact_s.map(estimate),
+            drag_per_s2: fit.drag_per_s2.map(estimate),
+            restitution: Some(fit.ln_restitution.value.exp()),
+            speed_exponent: fit.exponent.map(estimate),
+        },
         candidates: climb.candidates.clone(),
         alike: climb.alike,
+    }
+}
+
+const fn estimate(parameter: Parameter) -> Estimate {
+    Estimate {
+        value: parameter.value,
+        std_error: parameter.std,
+        interval95: parameter.interval95,
     }
 }
 
@@ -197,11 +160,11 @@ fn ball(climb: &Climb, inputs: &Inputs, settings: &Settings) -> Option<Ball> {
             * relative.natural_frequency,
         damping_ratio: oscillator.damping_ratio(),
         damping_ratio_std: oscillator.damping_ratio() * relative.damping_ratio,
-        release_rule: "zero_displacement",
+        release_rule: ReleaseRule::ZeroDisplacement,
         source: if inputs.contact_s.is_some() {
-            "given"
+            ContactSource::Given
         } else {
-            "intervals"
+            ContactSource::Intervals
         },
     })
 }
@@ -218,14 +181,14 @@ fn warnings(climb: &Climb) -> Vec<Warning> {
             "the rebound at impact {} is unlike the others and counts for little: spin, or a spot of the surface",
             numbers(&strays.bounces)
         );
-        warnings.push(Warning::new("wild_bounce", message));
+        warnings.push(Warning::new(WarningCode::WildBounce, message));
     }
     if !strays.times.is_empty() {
         let message = format!(
             "the time of impact {} fits none of its neighbours and counts for little",
             numbers(&strays.times)
         );
-        warnings.push(Warning::new("stray_time", message));
+        warnings.push(Warning::new(WarningCode::StrayTime, message));
     }
     if let Some(other) = climb.alike {
         let message = format!(
@@ -233,7 +196,7 @@ fn warnings(climb: &Climb) -> Vec<Warning> {
              apart without --mass and --diameter",
             climb.selected
         );
-        warnings.push(Warning::new("models_alike", message));
+        warnings.push(Warning::new(WarningCode::ModelsAlike, message));
     }
     warnings
 }

@@ -4,7 +4,7 @@ use super::drop::{self, Measured};
 use super::tail::{self, Followed};
 use super::{Settings, Stretch, rejected};
 use crate::Error;
-use crate::detect::{Candidate, Detector, clarity};
+use crate::detect::{self, Candidate, Detector, clarity};
 use crate::report::Rejected;
 use crate::sequence::{self, Chain, Event, Found, is_echo_of};
 use crate::units::real;
@@ -60,10 +60,11 @@ pub(super) fn hear(
         sample_rate_hz: rate,
         start_s: real(bounds.first) / rate,
         listened_from_s: real(bounds.listened_from) / rate,
-        hop_s: settings.detect.hop_s,
+        hop_s: detect::Settings::default().hop_s,
     };
     let events = stretch.events(&candidates[channel]);
-    let found = sequence::find(&events, &settings.sequence)?;
+    let balls = sequence::Settings::default();
+    let found = sequence::find(&events, &balls);
     let edge = Edge::of(&stretch, bounds.cut, &found);
     let rejected = rejected_before(edge.settled_s, told_s, &events, &found);
     let weak = weak_before(edge.settled_s, &events, &found);
@@ -71,7 +72,7 @@ pub(super) fn hear(
     let new = found.drops.into_iter();
     let new = new.filter(|chain| !edge.waits(chain) && !is_told(chain, told_s));
     let mut followed: Vec<Followed<'_>> = new
-        .map(|chain| tail::follow(&stretch, chain, &mut all, &settings.sequence))
+        .map(|chain| tail::follow(&stretch, chain, &mut all, &balls))
         .collect();
     followed.sort_by(|a, b| b.chain.evidence.total_cmp(&a.chain.evidence));
     let mut kept: Vec<Followed<'_>> = Vec::new();

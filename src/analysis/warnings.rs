@@ -1,9 +1,10 @@
 //! What a user should know about a result, and what to do about it.
 
 use super::Stretch;
-use crate::fit::flights::Impact as Timed;
-use crate::fit::total_time::{Missing, TotalTime};
-use crate::report::{Drop, Warning};
+use crate::fit::Estimate;
+use crate::fit::flights::{Flights, Impact as Timed};
+use crate::fit::total_time::{Missing, TotalTime, left_s};
+use crate::report::{Warning, WarningCode};
 use crate::sequence::Chain;
 
 /// Fewer flights than this tell the trend of e from chance badly.
@@ -34,7 +35,7 @@ impl Heard {
         // The first sound rises out of the silence before it, so a recording without a scene is silent.
         if !self.sound {
             return Warning::new(
-                "silence",
+                WarningCode::Silence,
                 "the recording is silent: nothing in it is louder than -140 dB for a millisecond or more. Check that the \
                  right input was recorded",
             );
@@ -54,7 +55,7 @@ impl Heard {
                 self.noticeable
             ),
         };
-        Warning::new("no_drop", message)
+        Warning::new(WarningCode::NoDrop, message)
     }
 }
 
@@ -66,13 +67,13 @@ pub(super) fn of_memory(left_out: usize, torn: usize) -> Vec<Warning> {
             "{left_out} drops with the least evidence left out: there are more than fit the memory. Listen to parts \
              with --start and --end"
         );
-        warnings.push(Warning::new("left_out", message));
+        warnings.push(Warning::new(WarningCode::LeftOut, message));
     }
     if torn > 0 {
         let message = format!(
             "{torn} drops last longer than what is held in memory, and stand here in two parts"
         );
-        warnings.push(Warning::new("torn", message));
+        warnings.push(Warning::new(WarningCode::Torn, message));
     }
     warnings
 }
@@ -86,7 +87,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
             "only {heard} impacts: the error of e rests on {} ratios. Drop from higher",
             heard - 2
         );
-        warnings.push(Warning::new("few_impacts", message));
+        warnings.push(Warning::new(WarningCode::FewImpacts, message));
     }
     let inferred = chain.links.len() - heard;
     if inferred > 0 {
@@ -94,7 +95,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
             "{inferred} of {} impacts not heard but inferred from their neighbours",
             timed.len()
         );
-        warnings.push(Warning::new("inferred", message));
+        warnings.push(Warning::new(WarningCode::Inferred, message));
     }
     let doubtful = chain
         .links
@@ -104,7 +105,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
     if doubtful > 0 {
         let message =
             format!("{doubtful} of {heard} impacts doubtful: noise offers sounds as strong nearby");
-        warnings.push(Warning::new("doubtful", message));
+        warnings.push(Warning::new(WarningCode::Doubtful, message));
     }
     let clipped = timed
         .iter()
@@ -112,14 +113,14 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
         .count();
     if clipped > 0 {
         let message = format!("{clipped} impacts reach full scale: lower the recording level");
-        warnings.push(Warning::new("clipped", message));
+        warnings.push(Warning::new(WarningCode::Clipped, message));
     }
     if let (Some(first), Some(second)) = (timed.first(), timed.get(1))
         && 2.0 * first.time_s - second.time_s < stretch.listened_from_s
     {
         let message = "the recording starts less than a flight before the first impact heard: earlier ones may be \
                        missing. Start recording before the drop";
-        warnings.push(Warning::new("late_start", message));
+        warnings.push(Warning::new(WarningCode::LateStart, message));
     }
     warnings
 }
@@ -135,7 +136,7 @@ pub(super) fn of_contact(given_s: Option<f64>, timed: &[Timed]) -> Option<Warnin
         1e3 * given_s,
         1e3 * shortest_s
     );
-    Some(Warning::new("contact_too_long", message))
+    Some(Warning::new(WarningCode::ContactTooLong, message))
 }
 
 fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
@@ -143,15 +144,20 @@ fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
     sound.iter().filter(|x| x.abs() >= CLIPPED).count() >= CLIPPED_SAMPLES
 }
 
-/// The end of a drop: `left_s` is how long the ball would have gone on after its last impact, `end_s` the end of the
-/// recording.
-pub(super) fn of_end(drop: &Drop, left_s: Option<f64>, end_s: f64) -> Option<Warning> {
-    let (left_s, recorded_s) = (left_s?, end_s - drop.impacts.last()?.time_s);
+/// The end of a drop whose flights have this ratio, in a recording that ends at `end_s`.
+pub(super) fn of_end(
+    timed: &[Timed],
+    flights: &Flights,
+    ratio: Option<Estimate>,
+    end_s: f64,
+) -> Option<Warning> {
+    let left_s = left_s(timed, flights, ratio?.value);
+    let recorded_s = end_s - timed.last()?.time_s;
     let message = format!(
         "the recording ends before the ball rests: it would go on for about {left_s:.2} s, of which {recorded_s:.2} s \
          were recorded. There is no T_total, and equation (25) does not apply. Record for longer"
     );
-    (left_s > recorded_s).then(|| Warning::new("cut_end", message))
+    (left_s > recorded_s).then(|| Warning::new(WarningCode::CutEnd, message))
 }
 
 /// Why there is no total time, or no root.
@@ -161,7 +167,7 @@ pub(super) fn of_total_time(solved: &Result<TotalTime, Missing>) -> Option<Warni
             first_flight_s,
             expected_s,
         }) => Some(Warning::new(
-            "first_impact_missing",
+            WarningCode::FirstImpactMissing,
             format!(
                 "the first flight heard is {first_flight_s:.3} s where the height makes it about {expected_s:.3} s: \
                  the first impact is missing or --height is wrong, so equation (25) does not apply"
@@ -171,14 +177,14 @@ pub(super) fn of_total_time(solved: &Result<TotalTime, Missing>) -> Option<Warni
             first_flight_s,
             longest_s,
         }) => Some(Warning::new(
-            "height_too_small",
+            WarningCode::HeightTooSmall,
             format!(
                 "the first flight is {first_flight_s:.3} s, but from this height it cannot exceed {longest_s:.3} s: \
                  check --height; equation (25) does not apply"
             ),
         )),
         Err(Missing::End { left_s }) => Some(Warning::new(
-            "ended_early",
+            WarningCode::EndedEarly,
             format!(
                 "the impacts end {left_s:.2} s before the ball would rest: it was caught, or its last impacts are too \
                  faint. There is no T_total, and equation (25) does not apply"
@@ -189,7 +195,7 @@ pub(super) fn of_total_time(solved: &Result<TotalTime, Missing>) -> Option<Warni
             total_time_s,
             ..
         }) => Some(Warning::new(
-            "no_root",
+            WarningCode::NoRoot,
             format!(
                 "no e gives a total time of {total_time_s:.3} s by equation (25): check --height"
             ),

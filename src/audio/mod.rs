@@ -2,7 +2,7 @@
 //!
 //! What a recording is says its content, never its name (`content`). WAV is read by `wav` and what is compressed by
 //! `compressed`; a [`Stream`] is either, and holds a block of it, whatever its length. [`read_file`] holds a whole
-//! recording in memory.
+//! recording in memory, [`write_wav`] writes one.
 
 mod compressed;
 mod content;
@@ -12,8 +12,10 @@ mod wav;
 use std::io::Read;
 use std::path::Path;
 
+pub use compressed::is_guarded;
 pub use content::{HEAD_BYTES, could_be_recording, has_ending};
 pub use stream::Stream;
+pub use wav::{Form, write_wav};
 
 use crate::Error;
 
@@ -71,6 +73,17 @@ fn whole(mut stream: Stream<'_>) -> Result<Recording, Error> {
         lossy,
         warnings: stream.finish()?.warnings,
     })
+}
+
+impl Error {
+    /// Says in which file this error happened.
+    #[must_use]
+    pub fn in_file(self, path: impl AsRef<Path>) -> Self {
+        Self::InFile {
+            file: path.as_ref().display().to_string(),
+            source: Box::new(self),
+        }
+    }
 }
 
 /// An [`Error::Recording`] for a problem.

@@ -7,11 +7,12 @@ use clap::{Args, ValueEnum};
 
 use super::Outcome;
 use super::labels::LabelArguments;
-use super::listen::{Hearing, Listening};
+use super::listen::{Listening, listen_to_file};
 use super::picture::{Target, check_readable_twice, draw_sheets};
 use super::rule::RuleArguments;
 use crate::Error;
 use crate::audio::Stream;
+use crate::recording::Request;
 use crate::report::text::Detail;
 use crate::report::{csv, json, text};
 
@@ -68,17 +69,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         check_readable_twice(&arguments.file)?;
     }
     let labels = arguments.labels.given()?;
-    let mut settings = arguments.listening.settings();
-    arguments.rule.complete(&mut settings);
-    let hear = Hearing { settings, labels };
-    let mut report = if arguments.file == Path::new("-") {
-        let open = Stream::open(io::stdin());
-        open.and_then(|stream| arguments.listening.hear(stream, "-".to_owned(), &hear))
-            .map_err(|e| e.in_file("standard input"))?
-    } else {
-        arguments.listening.hear_file(&arguments.file, &hear)?
+    let request = Request {
+        labels,
+        rule: arguments.rule.rule,
+        ..arguments.listening.request()
     };
-    arguments.rule.judge(&mut report)?;
+    let report = if arguments.file == Path::new("-") {
+        let stream = Stream::open(io::stdin());
+        let report = stream.and_then(|stream| request.listen(stream, "-"));
+        report.map_err(|e| e.in_file("standard input"))?
+    } else {
+        listen_to_file(&arguments.file, &request)?
+    };
     arguments.labels.write(&report)?;
     if let Some(target) = target {
         draw_sheets(&target, &arguments.file, &report)?;
@@ -90,7 +92,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     };
     Ok(Outcome {
         output,
-        status: u8::from(report.analysis.drops.is_empty()),
+        status: u8::from(report.drops.is_empty()),
     })
 }
 

@@ -65,7 +65,7 @@ impl LabelArguments {
             return Ok(());
         };
         let form = form(path, "--labels")?;
-        let text = to_labels(&report.analysis, report.recording.duration_s, form);
+        let text = to_labels(&report.drops, report.recording.duration_s, form);
         if path.is_file() {
             let there = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
             self.spare(&there, text.as_bytes())

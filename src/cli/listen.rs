@@ -1,17 +1,17 @@
 //! What `analyze` and `batch` share: how to listen, and one recording to its report.
 
-use std::ops::Range;
 use std::path::Path;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use super::labels::Given;
 use super::{acceleration, length, mass, time};
 use crate::Error;
-use crate::analysis::{Listener, Settings, analyze_labelled};
+use crate::analysis::Settings;
 use crate::audio::Stream;
 use crate::fit::ladder::Choice;
-use crate::report::{self, RecordingInfo, Report};
+use crate::recording::{Channel, Request};
+use crate::report::Report;
 use crate::timing::Timing;
 
 /// What is known beforehand and how to listen.
@@ -33,14 +33,15 @@ pub(super) struct Listening {
     #[arg(long, value_parser = time, allow_hyphen_values = true)]
     contact_time: Option<f64>,
     /// Model of the intervals: constant e, and what is added to it
-    #[arg(long, value_enum, default_value_t = ModelChoice::Auto)]
-    model: ModelChoice,
+    #[arg(long, default_value = "auto", value_parser = one_of(&MODELS))]
+    model: Choice,
     /// Gravity in m/s²
     #[arg(long, value_parser = acceleration, default_value = "9.81", allow_hyphen_values = true)]
     gravity: f64,
     /// Which channel to listen to: best (the one in which impacts stand out most) or its number from 1
     #[arg(
         long,
+        value_parser = channel,
         default_value = "best",
         value_name = "best|N",
         allow_hyphen_values = true
@@ -53,180 +54,109 @@ pub(super) struct Listening {
     #[arg(long, value_parser = time, allow_hyphen_values = true)]
     end: Option<f64>,
     /// How impacts are timed, from fastest to most exact
-    #[arg(long, value_enum, default_value_t = TimingChoice::Auto)]
-    timing: TimingChoice,
+    #[arg(long, default_value = "auto", value_parser = one_of(&TIMINGS))]
+    timing: Timing,
 }
 
-/// How one recording is listened to: the settings of the library, and the labels whose impacts are fitted in place of
-/// those heard.
-#[derive(Debug)]
-pub(super) struct Hearing<'a> {
-    pub settings: Settings,
-    pub labels: Option<Given<'a>>,
-}
-
-#[derive(Debug, Clone, Copy)]
-enum Channel {
-    Best,
-    Number(usize),
-}
-
-impl Channel {
-    /// The indices of the channels that are listened to, of this many.
-    fn of(self, channels: usize) -> Result<Range<usize>, Error> {
-        match self {
-            Self::Best => Ok(0..channels),
-            Self::Number(number) if number <= channels => Ok(number - 1..number),
-            Self::Number(number) => Err(Error::Argument {
-                argument: "--channel",
-                got: format!("{number} of a recording with {channels}"),
-                expected: "best or the number of a channel, from 1",
-            }),
-        }
+fn channel(text: &str) -> Result<Channel, String> {
+    match text.parse() {
+        _ if text == "best" => Ok(Channel::Best),
+        Ok(number) if number > 0 => Ok(Channel::Number(number)),
+        _ => Err("expected best or a number from 1".to_owned()),
     }
 }
 
-impl std::str::FromStr for Channel {
-    type Err = String;
+/// A word of the command line, what it stands for and what the help says of it.
+type Word<T> = (&'static str, T, &'static str);
 
-    fn from_str(text: &str) -> Result<Self, String> {
-        match text.parse() {
-            _ if text == "best" => Ok(Self::Best),
-            Ok(number) if number > 0 => Ok(Self::Number(number)),
-            _ => Err("expected best or a number from 1".to_owned()),
-        }
-    }
+const TIMINGS: [Word<Timing>; 4] = [
+    (
+        "auto",
+        Timing::Correlation,
+        "The most exact that the recording allows",
+    ),
+    (
+        Timing::Envelope.word(),
+        Timing::Envelope,
+        "The detector's grid, a quarter of a millisecond",
+    ),
+    (
+        Timing::Fraction.word(),
+        Timing::Fraction,
+        "A fixed fraction of each impact's rise",
+    ),
+    (
+        Timing::Correlation.word(),
+        Timing::Correlation,
+        "Correlation with the mean impact",
+    ),
+];
+
+const MODELS: [Word<Choice>; 7] = [
+    model(Choice::Auto, "As much as the recording supports"),
+    model(Choice::Constant, "Constant e"),
+    model(
+        Choice::Contact,
+        "The time in contact stands in every interval",
+    ),
+    model(
+        Choice::Linear,
+        "A linear ball with weight: slow impacts last longer and lose more",
+    ),
+    model(Choice::Drag, "The air slows the ball"),
+    model(Choice::Speed, "e is a power of the impact speed"),
+    model(
+        Choice::Viscoelastic,
+        "Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed",
+    ),
+];
+
+const fn model(choice: Choice, help: &'static str) -> Word<Choice> {
+    (choice.word(), choice, help)
 }
 
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum TimingChoice {
-    /// The most exact that the recording allows
-    Auto,
-    /// The detector's grid, a quarter of a millisecond
-    Envelope,
-    /// A fixed fraction of each impact's rise
-    Fraction,
-    /// Correlation with the mean impact
-    Correlation,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-enum ModelChoice {
-    /// As much as the recording supports
-    Auto,
-    /// Constant e
-    Constant,
-    /// The time in contact stands in every interval
-    Contact,
-    /// A linear ball with weight: slow impacts last longer and lose more
-    Linear,
-    /// The air slows the ball
-    Drag,
-    /// e is a power of the impact speed
-    Speed,
-    /// Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed
-    Viscoelastic,
-}
-
-impl From<ModelChoice> for Choice {
-    fn from(choice: ModelChoice) -> Self {
-        match choice {
-            ModelChoice::Auto => Self::Auto,
-            ModelChoice::Constant => Self::Constant,
-            ModelChoice::Contact => Self::Contact,
-            ModelChoice::Linear => Self::Linear,
-            ModelChoice::Drag => Self::Drag,
-            ModelChoice::Speed => Self::Speed,
-            ModelChoice::Viscoelastic => Self::Viscoelastic,
-        }
-    }
+/// One of these words.
+fn one_of<T: Copy + Send + Sync + 'static>(
+    words: &'static [Word<T>],
+) -> impl TypedValueParser<Value = T> {
+    let values = words
+        .iter()
+        .map(|(word, _, help)| PossibleValue::new(*word).help(*help));
+    PossibleValuesParser::new(values).try_map(|given| {
+        let named = words.iter().find(|(word, ..)| *word == given);
+        named
+            .map(|(_, value, _)| *value)
+            .ok_or("not one of the words")
+    })
 }
 
 impl Listening {
-    /// Listens to a file.
-    pub(super) fn hear_file(&self, path: &Path, hearing: &Hearing<'_>) -> Result<Report, Error> {
-        let stream = Stream::open_file(path)?;
-        self.hear(stream, name(path), hearing)
-            .map_err(|e| e.in_file(path))
-    }
-
-    /// Listens to a stream to its end, or fits the impacts of labels to it.
-    pub(super) fn hear(
-        &self,
-        mut stream: Stream<'_>,
-        file: String,
-        Hearing { settings, labels }: &Hearing<'_>,
-    ) -> Result<Report, Error> {
-        let channels = stream.channels();
-        let heard = self.channel.of(channels)?;
-        let rate = f64::from(stream.sample_rate_hz());
-        let (encoding, lossy) = (stream.encoding(), stream.is_lossy());
-        let (ending, (channel, mut analysis)) = match labels {
-            None => {
-                let mut listener = Listener::new(heard.len(), rate, settings)?;
-                while listener.push_with(|room| stream.append(&heard, room))?? {}
-                // A file without audio is no WAV to listen to: that comes before what was not found in it.
-                (stream.finish()?, listener.finish()?)
-            }
-            Some((path, drops)) => {
-                let mut samples = vec![Vec::new(); heard.len()];
-                while stream.append(&heard, &mut samples)? {}
-                let ending = stream.finish()?;
-                let fitted = analyze_labelled(&samples, rate, drops, settings);
-                (ending, fitted.map_err(|e| e.in_file(path))?)
-            }
-        };
-        for drop in &mut analysis.drops {
-            drop.channel += heard.start;
-        }
-        let repairs = ending.warnings.into_iter();
-        let repairs = repairs.map(|message| report::Warning::new("repaired", message));
-        analysis.warnings.extend(repairs);
-        analysis.warnings.extend(lossy.then(|| of_lossy(&encoding)));
-        Ok(Report {
-            schema_version: report::SCHEMA_VERSION,
-            file,
-            recording: RecordingInfo {
-                sample_rate_hz: rate,
-                channels,
-                channel: heard.start + channel + 1,
-                duration_s: ending.duration_s,
-                encoding,
-            },
-            settings: settings.info(),
-            analysis,
-        })
-    }
-
-    /// The settings of the library.
-    pub(super) fn settings(&self) -> Settings {
-        Settings {
-            height_m: self.height,
-            height_std_m: self.height_error,
-            gravity_m_per_s2: self.gravity,
-            mass_kg: self.mass,
-            diameter_m: self.diameter,
-            contact_time_s: self.contact_time,
-            model: self.model.into(),
-            start_s: self.start,
-            end_s: self.end,
-            timing: match self.timing {
-                TimingChoice::Envelope => Timing::Envelope,
-                TimingChoice::Fraction => Timing::Fraction,
-                TimingChoice::Auto | TimingChoice::Correlation => Timing::Correlation,
-            },
-            ..Settings::default()
+    /// What the library is asked.
+    pub(super) fn request(&self) -> Request<'static> {
+        let settings = Settings::default()
+            .height_m(self.height)
+            .height_std_m(self.height_error)
+            .gravity_m_per_s2(self.gravity)
+            .mass_kg(self.mass)
+            .diameter_m(self.diameter)
+            .contact_time_s(self.contact_time)
+            .model(self.model)
+            .start_s(self.start)
+            .end_s(self.end)
+            .timing(self.timing);
+        Request {
+            settings,
+            channel: self.channel,
+            ..Request::default()
         }
     }
 }
 
-/// What compression costs; `docs/compressed.md` has the figures.
-fn of_lossy(encoding: &str) -> report::Warning {
-    let message = format!(
-        "the recording is compressed with loss ({encoding}), which may move an impact by 0.01 ms, by 2 ms where there is \
-         noise, and swallow faint ones: e may be off by more than its error says. Record WAV, FLAC or ALAC"
-    );
-    report::Warning::new("lossy", message)
+/// The report of a file.
+pub(super) fn listen_to_file(path: &Path, request: &Request<'_>) -> Result<Report, Error> {
+    let stream = Stream::open_file(path)?;
+    let report = request.listen(stream, &name(path));
+    report.map_err(|e| e.in_file(path))
 }
 
 /// The name of a file in a document: as it is, but for bytes that are no UTF-8, which are written as `\xFF`.

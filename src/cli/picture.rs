@@ -90,7 +90,7 @@ pub(super) fn check_readable_twice(recording: &Path) -> Result<(), Error> {
 
 /// Draws the sheets of a report on the recording in a file: into the target, or, of several drops, each into its own.
 pub(super) fn draw_sheets(target: &Target, file: &Path, report: &Report) -> Result<(), Error> {
-    let drops = report.analysis.drops.len();
+    let drops = report.drops.len();
     if drops > MOST_SHEETS {
         return Err(Error::Argument {
             argument: "--plot",

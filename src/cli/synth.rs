@@ -1,7 +1,7 @@
 //! `bounce-audio synth`: recordings made from the model, with their truth beside them.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, ErrorKind, Seek, Write};
+use std::io::{self, Seek, Write};
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -9,6 +9,7 @@ use clap::Args;
 use super::Outcome;
 use super::output::Whole;
 use crate::Error;
+use crate::audio::{Form, write_wav};
 use crate::synth::presets::{self, preset};
 use crate::synth::recorder::Encoding;
 use crate::synth::scene::Scene;
@@ -23,7 +24,7 @@ use crate::units::real;
   bounce-audio synth my-scene.toml --seed 7 -o drop.wav
   bounce-audio synth --suite suite --seeds 3")]
 pub(super) struct Arguments {
-    /// A scene as text; those of the presets are in fixtures/scenes
+    /// A scene as text; those of the presets are in assets/scenes
     #[arg(value_name = "SCENE.toml")]
     scene: Option<PathBuf>,
     /// A scene that comes with the program
@@ -151,7 +152,7 @@ fn write(path: &Path, made: &Synthetic) -> Result<PathBuf, Error> {
                        name, or delete it";
         return Err(Error::refused(problem).in_file(path));
     }
-    let recording = Whole::fill(path, b"RIFF", |file| write_wav(file, made))?;
+    let recording = Whole::fill(path, b"RIFF", |file| write_recording(file, made))?;
     let truth = Whole::fill(&truth_path, b"{", |file| {
         Ok(file.write_all(text.as_bytes())?)
     })?;
@@ -162,51 +163,17 @@ fn write(path: &Path, made: &Synthetic) -> Result<PathBuf, Error> {
     Ok(truth_path)
 }
 
-fn write_wav(file: &mut File, made: &Synthetic) -> Result<(), Error> {
+fn write_recording(file: &mut File, made: &Synthetic) -> Result<(), Error> {
     // Asked before anything is written, which could not be taken back.
     if file.stream_position().is_err() {
         let problem = "a recording is written to a file and not to a pipe: its length comes first, and is known last";
         return Err(Error::refused(problem));
     }
-    let encoding = made.truth.parameters.recorder.encoding;
-    let channels: Vec<&Vec<f32>> = [&made.samples]
-        .into_iter()
-        .chain(&made.more_channels)
-        .collect();
-    let spec = hound::WavSpec {
-        channels: u16::try_from(channels.len()).unwrap_or(u16::MAX),
-        sample_rate: made.truth.sample_rate_hz,
-        bits_per_sample: encoding.bits(),
-        sample_format: match encoding {
-            Encoding::Float32 => hound::SampleFormat::Float,
-            _ => hound::SampleFormat::Int,
-        },
+    let form = match made.truth.parameters.recorder.encoding {
+        Encoding::Float32 => Form::Float32,
+        integer => Form::Integer(integer.bits()),
     };
-    let mut writer = hound::WavWriter::new(BufWriter::new(file), spec).map_err(from_hound)?;
-    for frame in 0..made.samples.len() {
-        for channel in &channels {
-            match encoding {
-                Encoding::Float32 => writer.write_sample(channel[frame]),
-                _ => writer.write_sample(whole(channel[frame], encoding)),
-            }
-            .map_err(from_hound)?;
-        }
-    }
-    writer.finalize().map_err(from_hound)
-}
-
-/// The integer of a sample that is already a whole number of steps.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "`as` saturates, and only full scale of 32 bits is rounded up to its limit"
-)]
-fn whole(x: f32, encoding: Encoding) -> i32 {
-    (f64::from(x) * f64::from(encoding.bits() - 1).exp2()).round() as i32
-}
-
-fn from_hound(error: hound::Error) -> Error {
-    match error {
-        hound::Error::IoError(e) => e.into(),
-        other => io::Error::new(ErrorKind::InvalidData, other.to_string()).into(),
-    }
+    let more = made.more_channels.iter().map(Vec::as_slice);
+    let channels: Vec<&[f32]> = std::iter::once(&*made.samples).chain(more).collect();
+    write_wav(file, made.truth.sample_rate_hz, &channels, form)
 }

@@ -74,10 +74,8 @@ impl Detector {
     /// A detector for samples at this rate.
     ///
     /// # Errors
-    /// [`Error::Argument`] if the rate is too low to hold an octave above [`Settings::lowest_hz`] or a setting is not
-    /// positive.
+    /// [`Error::Argument`] if the rate is too low to hold an octave above [`Settings::lowest_hz`].
     pub fn new(sample_rate_hz: f64, settings: &Settings) -> Result<Self, Error> {
-        settings.check()?;
         Ok(Self {
             bank: Filterbank::new(sample_rate_hz, settings.hop_s, settings.lowest_hz)?,
             sample_rate_hz,
@@ -148,22 +146,4 @@ pub fn clarity(candidates: &[Candidate]) -> f64 {
     let mut strengths: Vec<f64> = candidates.iter().map(|c| c.strength).collect();
     strengths.sort_by(|a, b| b.total_cmp(a));
     strengths.iter().take(SPEAKERS).sum()
-}
-
-impl Settings {
-    fn check(&self) -> Result<(), Error> {
-        let positive = "a positive number";
-        for (name, value) in [
-            ("hop_s", self.hop_s),
-            ("lowest_hz", self.lowest_hz),
-            ("separation_s", self.separation_s),
-            ("weakest", self.weakest),
-            ("segment_s", self.segment_s),
-        ] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(Error::argument(name, value, positive));
-            }
-        }
-        Ok(())
-    }
 }

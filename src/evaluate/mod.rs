@@ -5,6 +5,7 @@
 //! what was once reached. Nothing here reads a file or a clock: analyses and seconds come from outside.
 
 pub mod matching;
+#[cfg(feature = "plots")]
 pub mod picture;
 pub mod reference;
 pub mod rows;

@@ -60,7 +60,7 @@ fn drop_of(times_s: &[f64], e: f64, half_width: f64) -> Drop {
                 interval95: Some([e - half_width, e + half_width]),
             },
             at_speed_m_per_s: Some(1.0),
-            method: "test",
+            method: crate::report::Method::LeastSquares,
         }),
         ..Drop::empty()
     }
@@ -71,7 +71,6 @@ fn analysis(drops: Vec<Drop>) -> Analysis {
         drops,
         rejected: Vec::new(),
         rejected_weak: 0,
-        rule: None,
         warnings: Vec::new(),
     }
 }

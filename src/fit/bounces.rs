@@ -2,15 +2,7 @@
 
 use super::flights::Impact;
 use super::slowing::{self, Flight, Lost, Slowing};
-
-/// What is known beforehand of a parameter: a normal distribution.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Known {
-    /// Its centre.
-    pub value: f64,
-    /// Its standard deviation, > 0.
-    pub std: f64,
-}
+use crate::physics::priors::Known;
 
 /// A model of the intervals: constant e, and what is added to it.
 ///

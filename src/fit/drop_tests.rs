@@ -1,9 +1,11 @@
 //! The fit on drops whose e, contact, drag and noises are known.
 
-use super::bounces::{Known, Law, Terms};
+use super::bounces::{Law, Terms};
 use super::flights::Impact;
+use super::kind::ModelKind;
 use super::ladder::{Choice, Inputs, climb};
 use super::model::fit;
+use crate::physics::priors::Known;
 use crate::physics::{
     Air, FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution, RestitutionLaw,
     Sphere,
@@ -149,14 +151,14 @@ fn the_air_that_slows_a_heavy_ball_unseen_is_in_the_interval() {
 fn the_ladder_is_climbed_as_far_as_the_drop_supports() {
     let mut rng = SplitMix64::new(5);
     let plain = climb(&STEEL.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
-    assert_eq!(plain.selected, "constant");
+    assert_eq!(plain.selected, ModelKind::Constant);
     let soft = Made {
         contact_s: 5e-3,
         bounce_std: 0.002,
         ..STEEL
     };
     let soft = climb(&soft.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
-    assert_eq!(soft.selected, "contact");
+    assert_eq!(soft.selected, ModelKind::Contact);
     assert!((soft.fit.contact_s.unwrap().value - 5e-3).abs() < 1e-3);
     let light = Made {
         e: 0.93,
@@ -187,7 +189,7 @@ fn a_drag_that_is_known_is_in_every_model_and_no_rung() {
     };
     let climb = climb(&light.impacts(&mut rng), &inputs, Choice::Auto).unwrap();
     assert!(climb.fit.drag_per_s2.is_some());
-    assert!(climb.candidates.iter().all(|c| !c.model.contains("drag")));
+    assert!(climb.candidates.iter().all(|c| !c.model.has_drag()));
 }
 
 #[test]
@@ -315,7 +317,7 @@ fn viscoelastic_spheres_are_told_from_a_power_of_the_speed_and_e_is_that_at_the_
         let truth = law.at(0.5 * 9.81 * climb.fit.mean_speed_s).unwrap().ln();
         let [low, high] = climb.fit.ln_restitution.interval95.unwrap();
         held += usize::from((low..high).contains(&truth));
-        taken += usize::from(climb.selected == "viscoelastic");
+        taken += usize::from(climb.selected == ModelKind::Viscoelastic);
     }
     // A power of the speed that fits as well is 0.0015 off: two standard errors.
     assert!(

@@ -91,22 +91,6 @@ impl Flights {
         let squares: f64 = ratios.iter().map(|(_, r)| (r - mean).powi(2)).sum();
         Some((squares / real(ratios.len() - 1)).sqrt())
     }
-
-    /// Geometric mean of the speeds at which the ball arrived, `g·T/2` after each flight of length T, in m/s.
-    ///
-    /// None without flights.
-    #[must_use]
-    pub fn mean_speed_m_per_s(&self, gravity_m_per_s2: f64) -> Option<f64> {
-        if self.lengths.is_empty() {
-            return None;
-        }
-        let ln = self
-            .lengths
-            .iter()
-            .map(|(_, t)| (0.5 * gravity_m_per_s2 * t).ln())
-            .sum::<f64>();
-        Some((ln / real(self.lengths.len())).exp())
-    }
 }
 
 #[cfg(test)]

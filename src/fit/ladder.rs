@@ -1,28 +1,35 @@
 //! The ladder of models: constant e, and what is added where the recording supports it or the user knows it.
 
-use super::bounces::{Known, Law, Terms};
+use super::bounces::Terms;
 use super::flights::Impact;
-use super::model::{Fit, Fitted, Rival};
+use super::kind::{BallParameters, ModelKind};
+use super::model::{Fit, Fitted, Parameter, Rival};
+use crate::Error;
+use crate::physics::BallModel;
+use crate::physics::priors::{CONTACT_S, DRAG_PER_S2, Known, LITTLE_DRAG_PER_S2, SPEED_EXPONENT};
+use crate::words::words;
 
-/// Which rung to take.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Choice {
-    /// The one that the recording supports.
-    #[default]
-    Auto,
-    /// Constant e.
-    Constant,
-    /// And the time in contact, which stands in every interval.
-    Contact,
-    /// And a linear ball that has this contact time: by its weight slow impacts last longer and lose more.
-    Linear,
-    /// And the drag of the air.
-    Drag,
-    /// And a power of the impact speed.
-    Speed,
-    /// Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed.
-    Viscoelastic,
+words! {
+    /// Which rung to take.
+    #[derive(Default)]
+    #[non_exhaustive]
+    pub enum Choice {
+        /// The one that the recording supports.
+        #[default]
+        Auto = "auto",
+        /// Constant e.
+        Constant = "constant",
+        /// And the time in contact, which stands in every interval.
+        Contact = "contact",
+        /// And a linear ball that has this contact time: by its weight slow impacts last longer and lose more.
+        Linear = "linear",
+        /// And the drag of the air.
+        Drag = "drag",
+        /// And a power of the impact speed.
+        Speed = "speed",
+        /// Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed.
+        Viscoelastic = "viscoelastic",
+    }
 }
 
 /// What is known of the ball beforehand.
@@ -34,110 +41,29 @@ pub struct Inputs {
     pub drag_per_s2: Option<Known>,
 }
 
-/// One rung: what is fitted on it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Rung {
-    name: &'static str,
-    contact: bool,
-    drag: bool,
-    speed: bool,
-    law: Law,
-}
-
-/// Constant e.
-const CONSTANT: Rung = Rung {
-    name: "constant",
-    contact: false,
-    drag: false,
-    speed: false,
-    law: Law::Alike,
-};
-
-/// And the contact time.
-const CONTACT: Rung = Rung {
-    name: "contact",
-    contact: true,
-    ..CONSTANT
-};
-
-/// And the weight of a linear ball.
-const LINEAR: Rung = Rung {
-    name: "linear",
-    law: Law::Linear,
-    ..CONTACT
-};
-
-/// And slow impacts that lose less.
-const VISCOELASTIC: Rung = Rung {
-    name: "viscoelastic",
-    law: Law::Viscoelastic,
-    ..CONSTANT
-};
-
 /// From the simplest up. A model is compared with those that stand before it.
-const RUNGS: [Rung; 9] = [
-    CONSTANT,
-    VISCOELASTIC,
-    CONTACT,
-    LINEAR,
-    Rung {
-        name: "drag",
-        drag: true,
-        ..CONSTANT
-    },
-    Rung {
-        name: "speed",
-        speed: true,
-        ..CONSTANT
-    },
-    Rung {
-        name: "contact+drag",
-        drag: true,
-        ..CONTACT
-    },
-    Rung {
-        name: "linear+drag",
-        drag: true,
-        ..LINEAR
-    },
-    Rung {
-        name: "contact+speed",
-        speed: true,
-        ..CONTACT
-    },
+const RUNGS: [ModelKind; 9] = [
+    ModelKind::Constant,
+    ModelKind::Viscoelastic,
+    ModelKind::Contact,
+    ModelKind::Linear,
+    ModelKind::Drag,
+    ModelKind::Speed,
+    ModelKind::ContactDrag,
+    ModelKind::LinearDrag,
+    ModelKind::ContactSpeed,
 ];
 
-/// C of balls at large, in seconds: from a steel ball's tenth of a millisecond to a basketball's twelve.
-const CONTACT_KNOWN: Known = Known {
-    value: 2e-3,
-    std: 6e-3,
-};
-/// K of balls at large, s⁻²: nearly 0 for steel, 1.4 for a ping-pong ball, 5 for a foam ball.
-const DRAG_KNOWN: Known = Known {
-    value: 1.0,
-    std: 2.0,
-};
-/// K where drag is no rung of its own: there is air all the same, 0.02 for steel, 0.1 for a golf ball. One in ten of what is
-/// thought of as such a ball has more than 0.1.
-const LITTLE_DRAG_KNOWN: Known = Known {
-    value: 0.0,
-    std: 0.06,
-};
-/// p of balls at large: e of a tennis ball falls by 6 % where the speed grows by e, that of a plastic one by 25 %.
-const EXPONENT_KNOWN: Known = Known {
-    value: 0.05,
-    std: 0.1,
-};
 /// A rung is climbed where the data are likelier on it by this many nats: odds of 7 to 1.
 const WORTH: f64 = 2.0;
 /// Two models whose evidence differs by less than this are not told apart: odds of 20 to 1.
-pub const ALIKE: f64 = 3.0;
+pub(crate) const ALIKE: f64 = 3.0;
 
 /// A rung and how well it explains the drop.
-#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Candidate {
-    /// Its name.
-    pub model: &'static str,
+    /// Which.
+    pub model: ModelKind,
     /// ln of its evidence, less that of the first.
     pub gain_nats: f64,
     /// Its e.
@@ -147,14 +73,14 @@ pub struct Candidate {
 /// The rung taken and those compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Climb {
-    /// Name of the rung.
-    pub selected: &'static str,
+    /// The rung.
+    pub selected: ModelKind,
     /// The fit.
     pub fit: Fit,
     /// All that were fitted.
     pub candidates: Vec<Candidate>,
     /// Another model, with something else in place of what was selected, that explains the drop as well.
-    pub alike: Option<&'static str>,
+    pub alike: Option<ModelKind>,
 }
 
 /// Fits the rung chosen, or climbs as far as the recording supports.
@@ -165,20 +91,20 @@ pub struct Climb {
 #[must_use]
 pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Climb> {
     let (contact, drag) = (inputs.contact_s.is_some(), inputs.drag_per_s2.is_some());
-    let wanted = |rung: &Rung| match choice {
-        Choice::Auto => true,
-        Choice::Contact if !contact => rung.name == "contact",
-        Choice::Linear => rung.law == Law::Linear && !rung.drag,
-        Choice::Drag if !drag => rung.name == "drag",
-        Choice::Speed => rung.name == "speed",
-        Choice::Viscoelastic => rung.name == "viscoelastic",
+    let wanted = match choice {
+        Choice::Auto => None,
+        Choice::Contact if !contact => Some(ModelKind::Contact),
+        Choice::Linear => Some(ModelKind::Linear),
+        Choice::Drag if !drag => Some(ModelKind::Drag),
+        Choice::Speed => Some(ModelKind::Speed),
+        Choice::Viscoelastic => Some(ModelKind::Viscoelastic),
         // What is known is in every rung.
-        Choice::Constant | Choice::Contact | Choice::Drag => rung.name == "constant",
+        Choice::Constant | Choice::Contact | Choice::Drag => Some(ModelKind::Constant),
     };
-    let fits: Vec<(&Rung, Fitted<'_>)> = RUNGS
-        .iter()
-        .filter(|r| wanted(r))
-        .filter(|r| is_fitted(r, inputs))
+    let fits: Vec<(ModelKind, Fitted<'_>)> = RUNGS
+        .into_iter()
+        .filter(|&r| wanted.is_none_or(|wanted| r == wanted))
+        .filter(|&r| is_fitted(r, inputs))
         .filter_map(|r| Some((r, Fitted::new(impacts, &terms(r, inputs))?)))
         .collect();
     let lowest = fits.first()?.1.ln_evidence();
@@ -186,7 +112,7 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let mut best = 0;
     for (i, (rung, _)) in fits.iter().enumerate() {
         // Two parameters have to earn twice as much as one.
-        let dearer = parameters(rung, inputs) - parameters(fits[best].0, inputs);
+        let dearer = parameters(*rung, inputs) - parameters(fits[best].0, inputs);
         if gain(i) > gain(best) + WORTH * dearer.max(0.0) {
             best = i;
         }
@@ -195,17 +121,18 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         .iter()
         .enumerate()
         .map(|(i, (rung, fit))| Candidate {
-            model: rung.name,
+            model: *rung,
             gain_nats: gain(i),
             restitution: fit.ln_restitution().exp(),
         })
         .collect();
     let selected = fits[best].0;
-    let rival =
-        |rung: &Rung| rung.drag != selected.drag && rung.is_by_speed() != selected.is_by_speed();
+    let rival = |rung: ModelKind| {
+        rung.has_drag() != selected.has_drag() && rung.is_by_speed() != selected.is_by_speed()
+    };
     let alike = (0..fits.len())
         .find(|&i| rival(fits[i].0) && (gain(i) - gain(best)).abs() < ALIKE)
-        .map(|i| fits[i].0.name);
+        .map(|i| fits[i].0);
     // A rung is not preferred by less than it costs, so the one taken may have the lower evidence. What is much less likely
     // is discarded (Occam's window): far off, it would widen the standard error and not the interval.
     let highest = (0..fits.len()).map(gain).fold(f64::NEG_INFINITY, f64::max);
@@ -215,51 +142,62 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         .collect();
     let (_, fit) = fits.into_iter().nth(best)?;
     let mut fit = fit.summary().among(&rivals);
-    if !selected.drag && inputs.drag_per_s2.is_none() {
+    if !selected.has_drag() && inputs.drag_per_s2.is_none() {
         // It is not told from none.
         fit.drag_per_s2 = None;
     }
     Some(Climb {
-        selected: selected.name,
+        selected,
         fit,
         candidates,
         alike,
     })
 }
 
-impl Rung {
-    fn is_by_speed(&self) -> bool {
-        self.speed || self.law == Law::Viscoelastic
+impl Climb {
+    /// The ball of the rung taken, with e as fitted at the mean speed.
+    ///
+    /// # Errors
+    /// As [`ModelKind::ball`].
+    pub fn ball(&self, gravity_m_per_s2: f64) -> Result<BallModel, Error> {
+        let value = |p: Option<Parameter>| p.map_or(0.0, |p| p.value);
+        self.selected.ball(&BallParameters {
+            restitution: self.fit.ln_restitution.value.exp(),
+            at_speed_m_per_s: 0.5 * gravity_m_per_s2 * self.fit.mean_speed_s,
+            contact_time_s: value(self.fit.contact_s),
+            drag_per_s2: value(self.fit.drag_per_s2),
+            speed_exponent: value(self.fit.exponent),
+            gravity_m_per_s2,
+        })
     }
 }
 
 /// A term whose value is known is part of every rung and not a rung of its own.
-fn is_fitted(rung: &Rung, inputs: &Inputs) -> bool {
+fn is_fitted(rung: ModelKind, inputs: &Inputs) -> bool {
     // The weight is: it comes with a contact, known or not.
-    let contact_known = rung.contact && rung.law != Law::Linear && inputs.contact_s.is_some();
-    !(contact_known || rung.drag && inputs.drag_per_s2.is_some())
+    let contact_known = rung.has_contact() && !rung.is_linear() && inputs.contact_s.is_some();
+    !(contact_known || rung.has_drag() && inputs.drag_per_s2.is_some())
 }
 
-fn terms(rung: &Rung, inputs: &Inputs) -> Terms {
+fn terms(rung: ModelKind, inputs: &Inputs) -> Terms {
     Terms {
         contact: inputs
             .contact_s
-            .or_else(|| rung.contact.then_some(CONTACT_KNOWN)),
-        drag: Some(inputs.drag_per_s2.unwrap_or(if rung.drag {
-            DRAG_KNOWN
+            .or_else(|| rung.has_contact().then_some(CONTACT_S)),
+        drag: Some(inputs.drag_per_s2.unwrap_or(if rung.has_drag() {
+            DRAG_PER_S2
         } else {
-            LITTLE_DRAG_KNOWN
+            LITTLE_DRAG_PER_S2
         })),
-        speed: rung.speed.then_some(EXPONENT_KNOWN),
-        law: rung.law,
+        speed: rung.has_exponent().then_some(SPEED_EXPONENT),
+        law: rung.law(),
     }
 }
 
 /// How many parameters a rung fits; that e goes with speed has to earn as much where a law says how.
-fn parameters(rung: &Rung, inputs: &Inputs) -> f64 {
-    let contact = rung.contact && inputs.contact_s.is_none();
-    let viscoelastic = rung.law == Law::Viscoelastic;
-    [contact, rung.drag, rung.speed, viscoelastic]
+fn parameters(rung: ModelKind, inputs: &Inputs) -> f64 {
+    let contact = rung.has_contact() && inputs.contact_s.is_none();
+    [contact, rung.has_drag(), rung.is_by_speed()]
         .iter()
         .filter(|on| **on)
         .map(|_| 1.0)

@@ -7,6 +7,7 @@ mod banded;
 pub mod bounces;
 pub mod ensemble;
 pub mod flights;
+pub mod kind;
 pub mod ladder;
 mod least_squares;
 pub mod model;
@@ -16,17 +17,16 @@ mod slowing;
 mod state;
 pub mod stray;
 pub mod total_time;
-mod weight;
 
-pub use flights::Flights;
+pub use kind::{BallParameters, ModelKind};
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use crate::statistics::NORMAL95;
 
 /// A value with its uncertainty.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// The value.
     pub value: f64,

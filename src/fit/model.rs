@@ -2,14 +2,15 @@
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::bounces::{Bounces, Known, Terms};
+use super::bounces::{Bounces, Terms};
 use super::flights::Impact;
 use super::least_squares::Prior;
 use super::noise::Noise;
 use super::posterior::Posterior;
 use super::state::State;
 use super::stray::{self, Strays};
-use crate::statistics::NORMAL95;
+use crate::physics::priors::Known;
+use crate::statistics::{NORMAL95, bisected};
 
 /// Fewest impacts with a ratio of flights.
 const FEWEST: usize = 3;
@@ -54,7 +55,8 @@ pub struct Parameter {
 }
 
 /// Shares of the variance of ln e by cause; together 1.
-#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct Budget {
     /// By the errors of the times.
     pub timing: f64,
@@ -99,18 +101,8 @@ impl Fit {
             };
             let widest = |m: &Rival| m.interval95.map(|end| (end - *value).abs());
             let reach = FAR * models.iter().flat_map(widest).fold(0.0, f64::max);
-            *ends = [0.025, 0.975].map(|p| {
-                let (mut low, mut high) = (*value - reach, *value + reach);
-                for _ in 0..HALVINGS {
-                    let middle = 0.5 * (low + high);
-                    if below(middle) < p {
-                        low = middle;
-                    } else {
-                        high = middle;
-                    }
-                }
-                0.5 * (low + high)
-            });
+            let range = (*value - reach, *value + reach);
+            *ends = [0.025, 0.975].map(|p| bisected(range, HALVINGS, |x| below(x) < p));
             let own = (*std * *std / variance).min(1.0);
             *std = variance.sqrt();
             let b = &mut self.budget;
@@ -144,8 +136,8 @@ const HALVINGS: usize = 19;
 
 /// Fits a model. None for fewer than three impacts, a flight that is not longer than the contact, or parameters that run
 /// away.
-#[must_use]
-pub fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
+#[cfg(test)]
+pub(super) fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
     Some(Fitted::new(impacts, terms)?.summary())
 }
 

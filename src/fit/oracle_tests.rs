@@ -3,13 +3,14 @@
 
 use serde::Deserialize;
 
-use super::bounces::{Bounces, Known, Law, MOST, Terms, Values};
+use super::bounces::{Bounces, Law, MOST, Terms, Values};
 use super::flights::Impact;
 use super::least_squares::{Prior, Solution, solve};
 use super::model::fit;
 use super::noise::{Noise, Sizes};
 use super::posterior::Posterior;
 use super::stray::Strays;
+use crate::physics::priors::Known;
 
 const TABLE: &str = include_str!("../../fixtures/oracle/fit.json");
 

@@ -5,10 +5,10 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use super::bounces::Bounces;
 use super::least_squares::{Prior, Solution, solve};
 use super::noise::{Noise, Sizes};
+use crate::physics::priors::BOUNCE_STD;
+use crate::statistics::bisected;
 use crate::units::real;
 
-/// Range of `σ_e`: below it no ball is known, and a bounce that differs by a third is none.
-const BOUNCE: (f64, f64) = (1e-6, 0.3);
 /// Steps over that range in which the likelihood is searched for: a factor of four each, twice narrowed.
 const COARSE: usize = 10;
 const NARROWINGS: usize = 2;
@@ -128,16 +128,8 @@ impl Posterior {
         };
         let (mean, std) = self.moments(parameter);
         // Chebyshev: not even 1 in 400 lies beyond 20 standard deviations.
-        let (mut low, mut high) = (mean - 20.0 * std, mean + 20.0 * std);
-        for _ in 0..BISECTIONS {
-            let middle = 0.5 * (low + high);
-            if below(middle) < probability {
-                low = middle;
-            } else {
-                high = middle;
-            }
-        }
-        0.5 * (low + high)
+        let range = (mean - 20.0 * std, mean + 20.0 * std);
+        bisected(range, BISECTIONS, |x| below(x) < probability)
     }
 }
 
@@ -169,7 +161,7 @@ const BISECTIONS: usize = 26;
 
 /// The part of the range of `ln σ_e` that matters, in fine steps, and about where in it the density is greatest.
 fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)> {
-    let (first, last) = (BOUNCE.0.ln(), BOUNCE.1.ln());
+    let (first, last) = (BOUNCE_STD.0.ln(), BOUNCE_STD.1.ln());
     let (mut from, mut to) = (first, last);
     let mut top = first + COMMON * (last - first);
     for _ in 0..NARROWINGS {

@@ -1,9 +1,8 @@
 //! How slow impacts differ from fast ones: not at all, by the weight of a linear ball, or as viscoelastic spheres.
 
 use super::bounces::{Law, Terms, Values};
-use super::weight::Weight;
-use crate::physics::VISCOELASTIC_POWER;
 use crate::physics::ends::Ends;
+use crate::physics::{InterpolatedContact, VISCOELASTIC_POWER};
 use crate::units::real;
 
 /// A flight.
@@ -31,7 +30,7 @@ pub(super) struct Slowing {
 
 enum Laws {
     Alike,
-    Linear(Weight),
+    Linear(InterpolatedContact),
     Viscoelastic,
 }
 
@@ -43,7 +42,10 @@ impl Slowing {
         let ln_restitution = values.ln_fast_restitution;
         let law = match terms.law {
             Law::Alike => Laws::Alike,
-            Law::Linear => Laws::Linear(Weight::of(ln_restitution, values.contact_s / shortest)?),
+            Law::Linear => Laws::Linear(InterpolatedContact::of(
+                ln_restitution,
+                values.contact_s / shortest,
+            )?),
             Law::Viscoelastic => Laws::Viscoelastic,
         };
         Some(Self {
@@ -86,7 +88,7 @@ impl Slowing {
     /// `θ = l + δ̄`, δ̄ the loss at the mean speed: `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
     fn by_weight(
         &self,
-        weight: &Weight,
+        weight: &InterpolatedContact,
         values: Values,
         ln_speeds: &[f64],
         mean_ln_speed: f64,

@@ -1,10 +1,11 @@
 //! A trial of times and parameters, settled by rounds of linear fits.
 
-use super::bounces::{Bounces, Known, Law, MOST, Terms, Values};
+use super::bounces::{Bounces, Law, MOST, Terms, Values};
 use super::flights::Impact;
 use super::least_squares::{Prior, Solution};
 use super::noise::{Noise, Sizes};
 use super::posterior::likeliest;
+use crate::physics::priors::Known;
 use crate::statistics::upper_median;
 
 /// The model is made linear anew around the times and parameters found until none of them moves by more than this share
@@ -287,6 +288,7 @@ pub(super) fn time_pull(bounces: &Bounces, pulls: &[f64], time: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::kind::ModelKind;
     use crate::fit::ladder::{Choice, Inputs, climb};
     use crate::fit::posterior::Posterior;
     use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
@@ -319,15 +321,12 @@ mod tests {
         for std_s in [1e-6, 1e-7] {
             let touches = touches(0.93, 80e-6, 65, std_s);
             let climbed = climb(&touches, &Inputs::default(), Choice::Auto).unwrap();
-            let gain = |name: &str| {
-                let of = |c: &&crate::fit::ladder::Candidate| c.model == name;
-                climbed.candidates.iter().find(of).unwrap().gain_nats
+            let gain = |model: ModelKind| {
+                let mut candidates = climbed.candidates.iter();
+                candidates.find(|c| c.model == model).unwrap().gain_nats
             };
-            assert!(
-                gain("linear") >= gain("contact"),
-                "{:?}",
-                climbed.candidates
-            );
+            let (linear, contact) = (gain(ModelKind::Linear), gain(ModelKind::Contact));
+            assert!(linear >= contact, "{:?}", climbed.candidates);
             let ln_e = climbed.fit.ln_restitution.value + climbed.fit.ln_fast_gain;
             let off = ln_e - 0.93_f64.ln();
             let std = climbed.fit.ln_restitution.std.unwrap();

@@ -25,11 +25,13 @@
 //! τ = 2β instead of π, where cos β = ζ, and the ball leaves at w + 2ζ. Written with times (angles divided by s, which go
 //! over from arctangents into areatangents) this form holds for ζ ≥ 1 too.
 
-use super::{Oscillator, Restitution, check, spiral::Spiral};
+use super::{Oscillator, Restitution, check, root, spiral::Spiral};
 use crate::Error;
 
 /// When contact ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize)]
+#[derive(
+    Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize,
+)]
 #[serde(rename_all = "snake_case")]
 pub enum ReleaseRule {
     /// When the ball is back at `x = 0`, undeformed: the paper's rule, which (14) to (17) invert. The damper pulls the
@@ -93,6 +95,38 @@ impl LinearContact {
             release_rule,
             spiral: Spiral::new(oscillator.damping_ratio()),
         })
+    }
+
+    /// The ball with this restitution at one speed, of which fast impacts last so long; it leaves at zero displacement.
+    ///
+    /// Its restitution without weight, e₀, is the root of `e(v; e₀) = e`, which lies between e and 1: e(v) grows with e₀.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for an undamped ball, and where speed, contact time or gravity is not positive and finite.
+    pub fn with_restitution_at(
+        restitution: Restitution,
+        speed_m_per_s: f64,
+        contact_time_s: f64,
+        gravity_m_per_s2: f64,
+    ) -> Result<Self, Error> {
+        let speed = check::positive("speed_m_per_s", speed_m_per_s)?;
+        let of = |ln_loss: f64| {
+            let fast = Restitution::from_ln(-ln_loss)?;
+            let ball = Oscillator::from_contact(fast, contact_time_s)?;
+            Self::new(ball, gravity_m_per_s2, ReleaseRule::ZeroDisplacement)
+        };
+        let ln_loss = check::positive("ln_loss", -restitution.ln())?;
+        // Refuses what is out of range before the search, which cannot.
+        of(ln_loss)?;
+        let lost_more = |fast: f64| match of(fast).map(|contact| contact.rebound_at(speed)) {
+            // Nearly the whole loss goes with that of fast impacts.
+            Ok(Rebound::Leaves(leaving)) => {
+                let ln = leaving.restitution.ln();
+                (-ln - ln_loss, -ln / fast)
+            }
+            Ok(Rebound::Stays) | Err(_) => (f64::INFINITY, f64::NAN),
+        };
+        of(root::increasing((0.0, ln_loss), 0.9 * ln_loss, lost_more))
     }
 
     /// The ball.
@@ -185,5 +219,39 @@ impl LinearContact {
         let impact = speed / self.gravity_m_per_s2 * frequency;
         let sag = self.gravity_m_per_s2 / frequency / frequency;
         Ok(-sag * (1.0 + self.spiral.depth(impact)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_ball_made_from_its_restitution_at_one_speed_has_it_there() {
+        for (e, speed, contact_time_s) in [
+            (0.9, 1.2, 1e-3),
+            (0.75, 0.4, 12e-3),
+            (0.5, 0.2, 5e-3),
+            (0.99, 0.05, 8e-3),
+        ] {
+            let restitution = Restitution::new(e).unwrap();
+            let contact =
+                LinearContact::with_restitution_at(restitution, speed, contact_time_s, 9.81)
+                    .unwrap();
+            let Rebound::Leaves(leaving) = contact.rebound(speed).unwrap() else {
+                panic!("it leaves");
+            };
+            assert!(
+                (leaving.restitution.ln() / e.ln() - 1.0).abs() < 1e-12,
+                "{e}"
+            );
+            let Rebound::Leaves(fast) = contact.rebound(1e6).unwrap() else {
+                panic!("it leaves");
+            };
+            assert!(fast.restitution.value() > e);
+            assert!((fast.contact_time_s / contact_time_s - 1.0).abs() < 1e-6);
+        }
+        let elastic = LinearContact::with_restitution_at(Restitution::ELASTIC, 1.0, 1e-3, 9.81);
+        assert!(elastic.is_err());
     }
 }

@@ -1,9 +1,6 @@
 //! A ball to be dropped: height, flight, bounce, scatter and where to stop.
 
-use super::{
-    FlightLaw, Impacts, LinearContact, Oscillator, ReleaseRule, RestitutionLaw, check,
-    impacts::Surface,
-};
+use super::{BallModel, FlightLaw, Impacts, Oscillator, ReleaseRule, RestitutionLaw, check};
 use crate::Error;
 
 /// What happens at an impact.
@@ -75,33 +72,15 @@ impl DropSetup {
     pub fn impacts(&self) -> Result<Impacts, Error> {
         check::positive("height_m", self.height_m)?;
         let speed = self.flight.fall_from(self.height_m).landing_speed_m_per_s;
-        let surface = self.surface(check::positive("impact_speed_m_per_s", speed)?)?;
-        self.check_limits(surface.brings_to_rest())?;
+        check::positive("impact_speed_m_per_s", speed)?;
+        let ball = BallModel::new(self.flight, self.bounce)?;
+        // The first impact is the fastest.
+        ball.check_at(speed)?;
+        self.check_limits(ball.comes_to_rest())?;
         if let Some(scatter) = self.scatter {
             check::non_negative("ln_restitution_std", scatter.ln_restitution_std)?;
         }
-        Ok(Impacts::new(self, surface))
-    }
-
-    /// The bounce with its parameters checked at the greatest speed of the drop.
-    fn surface(&self, speed: f64) -> Result<Surface, Error> {
-        match self.bounce {
-            Bounce::Linear { ball, release_rule } => Ok(Surface::Linear(LinearContact::new(
-                ball,
-                self.flight.gravity_m_per_s2(),
-                release_rule,
-            )?)),
-            Bounce::Given {
-                restitution,
-                contact_time_s,
-            } => {
-                restitution.at(speed)?;
-                Ok(Surface::Given {
-                    restitution,
-                    contact_time: check::non_negative("contact_time_s", contact_time_s)?,
-                })
-            }
-        }
+        Ok(Impacts::new(self, ball))
     }
 
     fn check_limits(&self, comes_to_rest: bool) -> Result<(), Error> {

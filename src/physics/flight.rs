@@ -159,6 +159,23 @@ impl FlightLaw {
         })
     }
 
+    /// Quadratic drag of a known strength; 0 is none.
+    ///
+    /// ```text
+    /// K = (g/v_t)²      1.4 s⁻² for a ping-pong ball, 0.02 for one of steel
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Argument`] where gravity is not positive, the drag is negative, or either is not finite.
+    pub fn with_drag(gravity_m_per_s2: f64, drag_per_s2: f64) -> Result<Self, Error> {
+        if check::non_negative("drag_per_s2", drag_per_s2)? > 0.0 {
+            let terminal_speed = gravity_m_per_s2 / libm::sqrt(drag_per_s2);
+            Self::with_terminal_speed(gravity_m_per_s2, terminal_speed)
+        } else {
+            Self::without_air(gravity_m_per_s2)
+        }
+    }
+
     /// Drag, buoyancy and added mass of a sphere in air.
     ///
     /// ```text
@@ -189,6 +206,14 @@ impl FlightLaw {
     #[must_use]
     pub const fn terminal_speed_m_per_s(&self) -> Option<f64> {
         self.terminal_speed_m_per_s
+    }
+
+    /// K, the strength of the drag in s⁻²: 0 without. See [`with_drag`](Self::with_drag).
+    #[must_use]
+    pub fn drag_per_s2(&self) -> f64 {
+        let rate = |terminal| self.gravity_m_per_s2 / terminal;
+        self.terminal_speed_m_per_s
+            .map_or(0.0, |terminal| rate(terminal) * rate(terminal))
     }
 
     /// A fall from rest.

@@ -1,8 +1,6 @@
 //! A whole drop, impact by impact, from the closed forms of flight and contact: no time stepping.
 
-use super::{
-    DropSetup, FlightLaw, Hop, LinearContact, Rebound, Restitution, RestitutionLaw, Scatter,
-};
+use super::{BallModel, DropSetup, Rebound, Scatter};
 use crate::random::SplitMix64;
 
 /// One impact and the flight that follows.
@@ -30,26 +28,6 @@ impl Impact {
     }
 }
 
-/// A bounce whose parameters were checked.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Surface {
-    Linear(LinearContact),
-    Given {
-        restitution: RestitutionLaw,
-        contact_time: f64,
-    },
-}
-
-impl Surface {
-    /// Whether the ball ever stops leaving.
-    pub(super) fn brings_to_rest(&self) -> bool {
-        match self {
-            Self::Linear(contact) => contact.oscillator().damping_ratio() > 0.0,
-            Self::Given { contact_time, .. } => *contact_time > 0.0,
-        }
-    }
-}
-
 /// The moment and speed of the next touch.
 #[derive(Debug, Clone, Copy)]
 struct Touch {
@@ -67,8 +45,7 @@ struct Departure {
 /// Iterator over the impacts of a drop, made by [`DropSetup::impacts`].
 #[derive(Debug, Clone)]
 pub struct Impacts {
-    flight: FlightLaw,
-    surface: Surface,
+    ball: BallModel,
     scatter: Option<(Scatter, SplitMix64)>,
     shortest_flight: f64,
     left: usize,
@@ -94,7 +71,7 @@ impl Iterator for Impacts {
             return Some(impact);
         };
         impact.rebound_speed_m_per_s = leaving.speed;
-        if let Some(hop) = self.fly(&leaving) {
+        if let Some(hop) = self.ball.hop_after(leaving.speed, leaving.depth) {
             (impact.apex_m, impact.flight_time_s) = (hop.apex_m, hop.time_s);
             if self.left > 0 && impact.flight_time_s >= self.shortest_flight {
                 let time = touch.time.plus(leaving.contact_time);
@@ -110,12 +87,11 @@ impl Iterator for Impacts {
 
 impl Impacts {
     /// Starts with the fall. Everything in the setup was checked.
-    pub(super) fn new(setup: &DropSetup, surface: Surface) -> Self {
+    pub(super) fn new(setup: &DropSetup, ball: BallModel) -> Self {
         let fall = setup.flight.fall_from(setup.height_m);
         let with_stream = |scatter: Scatter| (scatter, SplitMix64::new(scatter.seed));
         Self {
-            flight: setup.flight,
-            surface,
+            ball,
             scatter: setup.scatter.map(with_stream),
             shortest_flight: setup.shortest_flight_s.unwrap_or(0.0),
             left: setup.most_impacts.unwrap_or(usize::MAX),
@@ -128,31 +104,16 @@ impl Impacts {
 
     /// How the ball leaves after touching at this speed; `None` if it stays.
     fn depart(&mut self, speed: f64) -> Option<Departure> {
-        match self.surface {
-            Surface::Linear(contact) => match contact.rebound_at(speed) {
-                Rebound::Stays => None,
-                Rebound::Leaves(leaving) => Some(Departure {
-                    speed: self.scattered(leaving.speed_m_per_s, speed),
-                    contact_time: leaving.contact_time_s,
-                    depth: -leaving.position_m,
-                }),
-            },
-            Surface::Given {
-                restitution,
-                contact_time,
-            } => {
-                let nominal = restitution.at_trusted(speed);
-                let rebound = self.scattered(nominal.rebound_speed_m_per_s(speed), speed);
-                let rests = contact_time > 0.0
-                    && self.flight.rise_at(rebound).height_m
-                        <= rest_depth(nominal, contact_time, &self.flight);
-                Some(Departure {
-                    speed: if rests { 0.0 } else { rebound },
-                    contact_time,
-                    depth: 0.0,
-                })
-            }
-        }
+        let Rebound::Leaves(leaving) = self.ball.rebound_at(speed) else {
+            return None;
+        };
+        let rebound = self.scattered(leaving.speed_m_per_s, speed);
+        let rests = self.ball.rests(&leaving, rebound);
+        Some(Departure {
+            speed: if rests { 0.0 } else { rebound },
+            contact_time: leaving.contact_time_s,
+            depth: -leaving.position_m,
+        })
     }
 
     /// A rebound speed with the scatter of one bounce; never faster than the impact, so no bounce makes energy.
@@ -165,30 +126,6 @@ impl Impacts {
             }
         }
     }
-
-    /// The flight after leaving; `None` where the ball does not get off the surface.
-    fn fly(&self, leaving: &Departure) -> Option<Hop> {
-        if leaving.depth == 0.0 {
-            return Some(self.flight.hop_at(leaving.speed));
-        }
-        let rise = self.flight.rise_at(leaving.speed);
-        let apex_m = rise.height_m - leaving.depth;
-        if apex_m <= 0.0 {
-            return None;
-        }
-        let fall = self.flight.fall_from(apex_m);
-        Some(Hop {
-            time_s: rise.time_s + fall.time_s,
-            apex_m,
-            landing_speed_m_per_s: fall.landing_speed_m_per_s,
-        })
-    }
-}
-
-/// How deep the ball with this restitution and contact time is pressed in at rest: (5) with (16).
-fn rest_depth(restitution: Restitution, contact_time: f64, flight: &FlightLaw) -> f64 {
-    let frequency = restitution.pi_norm() / contact_time;
-    flight.gravity_m_per_s2() / frequency / frequency
 }
 
 /// A sum of durations that carries its rounding error along (Neumaier), so that a drop of a million bounces ends on

@@ -37,7 +37,36 @@ pub enum RestitutionLaw {
         /// `p`, ≥ 0.
         exponent: f64,
     },
+    /// A power of the speed through e at one speed, as it is fitted to the impacts of a drop. Drawn out to speeds where it
+    /// would gain, it is 1 less a rounding.
+    ///
+    /// ```text
+    /// e = ē·(v/v̄)^(−p)
+    /// ```
+    SpeedPower {
+        /// `ē`.
+        restitution: Restitution,
+        /// `v̄`, > 0.
+        at_speed_m_per_s: f64,
+        /// `p`; below 0 where fast impacts lose less.
+        exponent: f64,
+    },
+    /// Viscoelastic spheres through e at one speed, as they are fitted to the impacts of a drop: right to `0.1·y²` of the
+    /// theory's series `1 − e = y − ⅗y² + …` in `y ∝ v^(1/5)` (Ramírez, Pöschel, Brilliantov and Schwager 1999).
+    ///
+    /// ```text
+    /// ln e = ln ē·(v/v̄)^(1/5)
+    /// ```
+    FifthRoot {
+        /// `ē`.
+        restitution: Restitution,
+        /// `v̄`, > 0.
+        at_speed_m_per_s: f64,
+    },
 }
+
+/// The least loss of a law that is drawn out to any speed: however far, no ball gains.
+const LEAST_LN_LOSS: f64 = f64::EPSILON;
 
 impl RestitutionLaw {
     /// Restitution at an impact speed.
@@ -59,6 +88,22 @@ impl RestitutionLaw {
                 check::positive("yield_speed_m_per_s", yield_speed_m_per_s)?;
                 check::non_negative("exponent", exponent)?;
             }
+            Self::SpeedPower {
+                restitution,
+                at_speed_m_per_s,
+                exponent,
+            } => {
+                check_lossy(restitution)?;
+                check::positive("at_speed_m_per_s", at_speed_m_per_s)?;
+                check::non_negative("exponent", exponent.abs())?;
+            }
+            Self::FifthRoot {
+                restitution,
+                at_speed_m_per_s,
+            } => {
+                check_lossy(restitution)?;
+                check::positive("at_speed_m_per_s", at_speed_m_per_s)?;
+            }
         }
         Ok(self.at_trusted(speed))
     }
@@ -78,6 +123,21 @@ impl RestitutionLaw {
             } => {
                 let excess = libm::log((speed / yield_speed_m_per_s).max(1.0));
                 Restitution::from_trusted_ln(restitution_at_yield.ln() - exponent * excess)
+            }
+            Self::SpeedPower {
+                restitution,
+                at_speed_m_per_s,
+                exponent,
+            } => {
+                let ln = restitution.ln() - exponent * libm::log(speed / at_speed_m_per_s);
+                Restitution::from_trusted_ln(ln.min(-LEAST_LN_LOSS))
+            }
+            Self::FifthRoot {
+                restitution,
+                at_speed_m_per_s,
+            } => {
+                let factor = libm::pow(speed / at_speed_m_per_s, VISCOELASTIC_POWER);
+                Restitution::from_trusted_ln((restitution.ln() * factor).min(-LEAST_LN_LOSS))
             }
         }
     }
@@ -127,16 +187,42 @@ mod tests {
             yield_speed_m_per_s: 0.5,
             exponent: 0.25,
         };
+        let power = RestitutionLaw::SpeedPower {
+            restitution: e,
+            at_speed_m_per_s: 2.0,
+            exponent: 0.25,
+        };
+        let fifth_root = RestitutionLaw::FifthRoot {
+            restitution: e,
+            at_speed_m_per_s: 2.0,
+        };
         for (law, speed, expected) in [
             (RestitutionLaw::Constant(e), 3.0, 0.8),
             (visco, 32.0, 1.0 - 0.2 + 0.024),
             (visco, 1.0, 0.906),
             (plastic, 8.0, 0.4),
             (plastic, 0.1, 0.8),
+            (power, 32.0, 0.4),
+            (power, 2.0, 0.8),
+            (fifth_root, 2.0, 0.8),
+            (fifth_root, 64.0, 0.64),
+            (fifth_root, 0.0625, 0.8_f64.sqrt()),
         ] {
             let got = law.at(speed).unwrap().value();
             assert!((got - expected).abs() < 1e-15, "{law:?} at {speed}: {got}");
         }
+    }
+
+    #[test]
+    fn a_power_of_the_speed_drawn_out_to_slow_impacts_never_gains() {
+        let law = RestitutionLaw::SpeedPower {
+            restitution: Restitution::new(0.9).unwrap(),
+            at_speed_m_per_s: 1.0,
+            exponent: 0.25,
+        };
+        assert!(law.at(0.9).unwrap().value() > 0.9);
+        let slow = law.at(1e-3).unwrap();
+        assert!(slow.value() < 1.0 && slow.one_minus() < 1e-15);
     }
 
     #[test]

@@ -52,9 +52,12 @@ mod drop;
 pub(crate) mod ends;
 mod flight;
 mod impacts;
+mod interpolated;
 mod inverse;
 mod law;
+mod model;
 mod motion;
+pub mod priors;
 mod restitution;
 mod root;
 mod spiral;
@@ -69,7 +72,9 @@ pub use flight::{
     terminal_speed_m_per_s,
 };
 pub use impacts::{Impact, Impacts};
+pub(crate) use interpolated::InterpolatedContact;
 pub use inverse::{Equation, InputErrors, Inversion};
 pub use law::{RestitutionLaw, VISCOELASTIC_POWER};
+pub use model::BallModel;
 pub use restitution::Restitution;
 pub use uncertainty::{ContactErrors, ParameterErrors};

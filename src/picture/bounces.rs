@@ -1,7 +1,8 @@
 //! Flights, residuals, heights and e of a drop, each with its error, beside what the model expects.
 
-use super::fitted::{Law, Observed};
+use super::fitted::{Observed, nearest};
 use super::{around, around_by_ratio, at_least};
+use crate::physics::BallModel;
 use crate::plot::{Axis, Band, Colour, Curve, Dots, Layer, Panel, Shape, Stroke};
 use crate::report::{Drop, Impact};
 use crate::units::real;
@@ -15,7 +16,7 @@ const STEPS: u8 = 60;
 /// The bounces of a drop with the line of its model.
 pub(super) struct Bounces<'a> {
     drop: &'a Drop,
-    law: Option<Law>,
+    ball: Option<BallModel>,
     /// Intervals that the model expects, in seconds; fewer or none where it does not say.
     line: Vec<f64>,
     /// The same for both ends of the 95 % interval of e.
@@ -24,7 +25,7 @@ pub(super) struct Bounces<'a> {
 
 impl<'a> Bounces<'a> {
     pub(super) fn of(drop: &'a Drop, gravity_m_per_s2: f64) -> Self {
-        let law = Law::of(drop, gravity_m_per_s2);
+        let ball = drop.ball_model(gravity_m_per_s2);
         let bounce_std = drop.scatter.bounce_std.unwrap_or(0.0);
         let flights = drop.impacts.len().saturating_sub(1);
         let impacts = drop.impacts.iter().take(flights).enumerate();
@@ -36,17 +37,19 @@ impl<'a> Bounces<'a> {
                     / (bounce_std.powi(2) + ln_interval_std(impact).powi(2)).max(LEAST_VARIANCE),
             })
             .collect();
-        let nearest = |law: &Law| law.nearest(&observed);
+        let nearest = |ball: &BallModel| nearest(ball, drop, &observed);
         let interval = drop
             .restitution
             .as_ref()
             .and_then(|r| r.estimate.interval95);
-        let ends = law.as_ref().zip(interval);
+        let with_end = |e: f64| drop.ball_model_with(e, gravity_m_per_s2);
         Self {
             drop,
-            line: law.as_ref().map(nearest).unwrap_or_default(),
-            ends: ends.map(|(law, ends)| ends.map(|e| nearest(&law.with_restitution(e)))),
-            law,
+            line: ball.as_ref().map(nearest).unwrap_or_default(),
+            ends: interval.and_then(|[low, high]| {
+                Some([nearest(&with_end(low)?), nearest(&with_end(high)?)])
+            }),
+            ball,
         }
     }
 
@@ -103,8 +106,8 @@ impl<'a> Bounces<'a> {
             let share = f64::from(k) / f64::from(STEPS);
             slow * (fast / slow).powf(share)
         });
-        let law = self.law.iter().flat_map(|law| {
-            let at = |speed| Some((speed, law.contact(speed)?.0));
+        let law = self.ball.iter().flat_map(|ball| {
+            let at = |speed| Some((speed, ball.restitution(speed)?.value()));
             speeds.clone().filter_map(at)
         });
         let law: Vec<(f64, f64)> = law.collect();

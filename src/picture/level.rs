@@ -39,9 +39,9 @@ pub(super) fn panel(report: &Report, drop: Option<&Drop>, sound: &Sound) -> Pane
     };
     let shown = |time_s: f64| (sound.from_s..=sound.to_s).contains(&time_s);
     let rejected = drop.into_iter().flat_map(|d| &d.rejected);
-    let rejected = rejected.chain(&report.analysis.rejected);
+    let rejected = rejected.chain(&report.rejected);
     let rejected = rejected.map(|r| r.time_s).filter(|&t| shown(t));
-    let others = report.analysis.drops.iter();
+    let others = report.drops.iter();
     let others = others.filter(|other| drop.is_none_or(|d| !std::ptr::eq(d, *other)));
     let others = others.flat_map(|other| &other.impacts);
     let others = others.map(|i| (i.time_s, i.level_db));

@@ -1,7 +1,7 @@
 //! The pictures of results: pure functions of a report and of the little that was kept of its sound.
 //!
 //! [`sheet`] shows one drop of a recording on one sheet, [`batch`] many recordings, [`total_time`] numbers typed in.
-//! What draws them, whatever they show, is [`plot`](crate::plot).
+//! [`to_svg`] and [`to_png`] draw them, whatever they show.
 
 pub mod batch;
 mod bounces;
@@ -11,6 +11,8 @@ mod onsets;
 pub mod sheet;
 pub mod sound;
 pub mod total_time;
+
+pub use crate::plot::{Figure, to_png, to_svg};
 
 /// The ends of an axis that holds values with room on both sides; about a single value, or none, it still has extent.
 fn around(values: impl IntoIterator<Item = f64>, room: f64) -> (f64, f64) {

@@ -16,7 +16,7 @@ const DENSITY: f64 = 0.8;
 /// [`Sound::of`] made of the same report, after it heard the recording.
 #[must_use]
 pub fn sheets(report: &Report, sounds: &[Sound]) -> Vec<Figure> {
-    let drops = &report.analysis.drops;
+    let drops = &report.drops;
     if drops.is_empty() {
         return sounds.iter().map(|s| without_drop(report, s)).collect();
     }
@@ -55,17 +55,14 @@ fn answer(drop: &Drop) -> String {
         || "e not determined".to_owned(),
         |r| format!("e = {}", with_error(&r.estimate)),
     );
-    let model = match model_name(&drop.model) {
-        name if name == "constant" => "constant e".to_owned(),
-        name => name,
-    };
+    let model = model_name(&drop.model);
     format!("{e}, {} bounces heard, model: {model}", drop.bounces)
 }
 
 fn without_drop(report: &Report, sound: &Sound) -> Figure {
     Figure {
         title: format!("{}: no drop found", printable(&report.file)),
-        subtitle: report.analysis.warnings.first().map(|w| w.message.clone()),
+        subtitle: report.warnings.first().map(|w| w.message.clone()),
         rows: vec![Row {
             height: 1,
             panels: vec![level::panel(report, None, sound)],

@@ -69,7 +69,7 @@ impl Sound {
     /// until it has [heard](Self::hear) the recording.
     #[must_use]
     pub fn of(report: &Report) -> Vec<Self> {
-        let drops = &report.analysis.drops;
+        let drops = &report.drops;
         if drops.is_empty() {
             let from_s = report.settings.start_s.unwrap_or(0.0);
             return vec![Self::between(

@@ -21,7 +21,7 @@ mod layers;
 mod marks;
 mod style;
 
-pub use axis::{Axis, Scale};
+pub use axis::Axis;
 pub use bitmap::to_png;
 pub use layers::{Band, Curve, Dots, Layer, Note, Shape, Side, Stroke};
 pub use style::Colour;

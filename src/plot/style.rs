@@ -60,7 +60,7 @@ static REGISTERED: OnceLock<bool> = OnceLock::new();
 
 /// Makes the bundled font known to `plotters`, once.
 pub(super) fn register() -> Result<(), Error> {
-    let bytes = include_bytes!("../../fixtures/fonts/DejaVuSans-subset.ttf");
+    let bytes = include_bytes!("../../assets/fonts/DejaVuSans-subset.ttf");
     let known = REGISTERED.get_or_init(|| register_font(FONT, FontStyle::Normal, bytes).is_ok());
     if *known {
         Ok(())

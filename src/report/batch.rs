@@ -49,7 +49,7 @@ impl From<&Drop> for DropDigest {
 
 impl From<&Report> for Digest {
     fn from(report: &Report) -> Self {
-        let drops = &report.analysis.drops;
+        let drops = &report.drops;
         Self {
             file: report.file.clone(),
             found: if drops.is_empty() {
@@ -62,7 +62,7 @@ impl From<&Report> for Digest {
 }
 
 /// A line per drop, file by file, then what they say together: mean e, the spread between drops against that which they
-/// claim, and the outliers by name. See [`Ensemble`] and [`outliers`] for the formulas.
+/// claim, and the outliers by name. See `Ensemble` and `outliers` for the formulas.
 #[must_use]
 pub fn summary(digests: &[Digest]) -> String {
     let mut out = String::new();

@@ -14,7 +14,7 @@ pub const HEADER: &str = "file,drop,impact,time_s,time_std_s,level_db,interval_s
 pub fn to_csv(report: &Report) -> String {
     let mut table = format!("{HEADER}\n");
     let file = quoted(&report.file);
-    for (d, drop) in report.analysis.drops.iter().enumerate() {
+    for (d, drop) in report.drops.iter().enumerate() {
         for (i, impact) in drop.impacts.iter().enumerate() {
             let bounce = &impact.bounce;
             // Columns that came later stand behind the status, so that those before keep their places.

@@ -3,6 +3,7 @@
 use super::csv::{cell, quoted};
 use super::{Drop, Report, Warning};
 use crate::fit::Estimate;
+use crate::words::words;
 
 /// The columns, in order.
 ///
@@ -49,14 +50,26 @@ pub const COLUMNS: [&str; 38] = [
     "duration_s",
 ];
 
-/// What the column `status` says.
-pub mod status {
-    /// The row is a drop.
-    pub const DROP: &str = "drop";
-    /// There was none in the file.
-    pub const NONE: &str = "none";
-    /// The file could not be analyzed.
-    pub const ERROR: &str = "error";
+words! {
+    /// What a row is, by its column `status`.
+    #[non_exhaustive]
+    pub enum RowStatus {
+        /// A drop.
+        Drop = "drop",
+        /// A file without one.
+        None = "none",
+        /// A file that could not be analyzed.
+        Error = "error",
+    }
+}
+
+impl RowStatus {
+    /// The status of this word.
+    #[must_use]
+    pub fn of_word(word: &str) -> Option<Self> {
+        let all = [Self::Drop, Self::None, Self::Error];
+        all.into_iter().find(|status| status.word() == word)
+    }
 }
 
 /// Columns before those of the drop, and behind them.
@@ -83,16 +96,16 @@ pub fn rows(report: &Report) -> String {
             info.duration_s.to_string(),
         ]
     };
-    let drops = &report.analysis.drops;
+    let drops = &report.drops;
     if drops.is_empty() {
         let reason = report.why_none();
-        let head = head(&report.file, "", 0, status::NONE, reason);
+        let head = head(&report.file, "", 0, RowStatus::None, reason);
         return joined(&[&head[..], &empty(), &tail(info.channel)]);
     }
     let row = |(i, drop): (usize, &Drop)| {
         let number = (i + 1).to_string();
-        let head = head(&report.file, &number, drops.len(), status::DROP, "");
-        let measured = measured(drop, &report.analysis.warnings);
+        let head = head(&report.file, &number, drops.len(), RowStatus::Drop, "");
+        let measured = measured(drop, &report.warnings);
         joined(&[&head[..], &measured, &tail(drop.channel)])
     };
     drops.iter().enumerate().map(row).collect()
@@ -101,16 +114,16 @@ pub fn rows(report: &Report) -> String {
 /// The row of a file that could not be analyzed.
 #[must_use]
 pub fn failure(file: &str, reason: &str) -> String {
-    let head = head(file, "", 0, status::ERROR, reason);
+    let head = head(file, "", 0, RowStatus::Error, reason);
     joined(&[&head[..], &empty(), &[const { String::new() }; TAIL]])
 }
 
-fn head(file: &str, number: &str, drops: usize, status: &str, reason: &str) -> [String; HEAD] {
+fn head(file: &str, number: &str, drops: usize, status: RowStatus, reason: &str) -> [String; HEAD] {
     [
         quoted(file),
         number.to_owned(),
         drops.to_string(),
-        status.to_owned(),
+        status.to_string(),
         quoted(reason),
     ]
 }
@@ -130,13 +143,13 @@ fn measured(drop: &Drop, of_recording: &[Warning]) -> Vec<String> {
     let estimates = &drop.estimates;
     let ball = drop.ball.as_ref();
     let warnings = drop.warnings.iter().chain(of_recording);
-    let warnings: Vec<&str> = warnings.map(|w| w.code).collect();
+    let warnings: Vec<&str> = warnings.map(|w| w.code.word()).collect();
     let mut cells = Vec::from(with_std(e.map(|e| e.estimate)));
     cells.extend([
         cell(interval.map(|i| i[0])),
         cell(interval.map(|i| i[1])),
         cell(e.and_then(|e| e.at_speed_m_per_s)),
-        drop.model.selected.to_owned(),
+        drop.model.selected.to_string(),
         drop.bounces.to_string(),
         cell(drop.impacts.first().map(|i| i.time_s)),
         drop.observed_time_s.to_string(),
@@ -171,7 +184,7 @@ fn with_std(estimate: Option<Estimate>) -> [String; 2] {
     ]
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "cli"))]
 mod tests {
     use super::*;
 

@@ -7,25 +7,33 @@ pub mod csv;
 pub mod drops;
 pub mod json;
 pub mod labels;
+mod model;
 pub mod rule;
+mod settings;
 mod table;
 pub mod text;
+mod warning;
 mod wrap;
 
+pub use model::{Given, Model, Parameters};
+pub use settings::Settings;
 pub(crate) use table::decimals;
 pub(crate) use text::{model_name, with_error};
+pub use warning::{Warning, WarningCode};
 
-use serde::Serialize;
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::fit::Estimate;
-use crate::fit::ladder::{Candidate, Choice};
 use crate::fit::model::Budget;
+use crate::physics::ReleaseRule;
+use crate::words::words;
 
 /// Version of the JSON document.
 pub const SCHEMA_VERSION: u32 = 1;
 
 /// Everything about one recording.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Report {
     /// Version of the document's form.
     pub schema_version: u32,
@@ -34,22 +42,56 @@ pub struct Report {
     /// The recording itself.
     pub recording: RecordingInfo,
     /// What was asked for.
-    pub settings: SettingsInfo,
-    /// The drops, their rejects and the warnings.
-    #[serde(flatten)]
-    pub analysis: Analysis,
+    pub settings: Settings,
+    /// The drops in order of time.
+    pub drops: Vec<Drop>,
+    /// Strong events outside any drop.
+    pub rejected: Vec<Rejected>,
+    /// How many weaker events were left out without being listed.
+    pub rejected_weak: usize,
+    /// What a rule book says of the drops; null unless that was asked for.
+    pub rule: Option<rule::RuleReport>,
+    /// What the user should know.
+    pub warnings: Vec<Warning>,
 }
 
 impl Report {
+    /// What was heard in a recording of this name with these settings.
+    #[must_use]
+    pub fn new(
+        file: String,
+        recording: RecordingInfo,
+        settings: Settings,
+        analysis: Analysis,
+    ) -> Self {
+        Self {
+            schema_version: SCHEMA_VERSION,
+            file,
+            recording,
+            settings,
+            drops: analysis.drops,
+            rejected: analysis.rejected,
+            rejected_weak: analysis.rejected_weak,
+            rule: None,
+            warnings: analysis.warnings,
+        }
+    }
+
+    /// The same with what a rule book says of its drops.
+    #[must_use]
+    pub fn with_rule(self, rule: Option<rule::RuleReport>) -> Self {
+        Self { rule, ..self }
+    }
+
     /// Why there is no drop, in a sentence.
     fn why_none(&self) -> &str {
-        let reason = self.analysis.warnings.first();
+        let reason = self.warnings.first();
         reason.map_or("no drop found", |warning| &warning.message)
     }
 }
 
 /// The recording as it was read.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RecordingInfo {
     /// Samples per second.
     pub sample_rate_hz: f64,
@@ -63,33 +105,9 @@ pub struct RecordingInfo {
     pub encoding: String,
 }
 
-/// What was asked for.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SettingsInfo {
-    /// From the ball's lowest point to the surface, in metres.
-    pub height_m: Option<f64>,
-    /// Standard error of the height in metres.
-    pub height_std_m: f64,
-    /// In m/s².
-    pub gravity_m_per_s2: f64,
-    /// Mass of the ball in kg.
-    pub mass_kg: Option<f64>,
-    /// Its diameter in metres.
-    pub diameter_m: Option<f64>,
-    /// Its time in contact in seconds.
-    pub contact_time_s: Option<f64>,
-    /// The model asked for.
-    pub model: Choice,
-    /// Where listening began, in seconds.
-    pub start_s: Option<f64>,
-    /// Where it ended, in seconds.
-    pub end_s: Option<f64>,
-    /// How impacts were timed.
-    pub timing: crate::timing::Timing,
-}
-
 /// What was heard in a recording.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Analysis {
     /// The drops in order of time.
     pub drops: Vec<Drop>,
@@ -97,14 +115,13 @@ pub struct Analysis {
     pub rejected: Vec<Rejected>,
     /// How many weaker events were left out without being listed.
     pub rejected_weak: usize,
-    /// What a rule book says of it; null unless that was asked for.
-    pub rule: Option<rule::RuleReport>,
     /// What the user should know.
     pub warnings: Vec<Warning>,
 }
 
 /// One drop.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Drop {
     /// The channel it was heard on, counted from 1: the one in which impacts stood out most then.
     pub channel: usize,
@@ -129,6 +146,7 @@ pub struct Drop {
     /// Where the error of e comes from, as shares that make 1; null where e has none.
     pub budget: Option<Budget>,
     /// Evidence that this is a drop and no chance, in nats; infinite, null in JSON, where a person set the impacts.
+    #[serde(deserialize_with = "infinite_where_null")]
     pub evidence_nats: f64,
     /// Strong events between the impacts that are none.
     pub rejected: Vec<Rejected>,
@@ -157,7 +175,7 @@ impl Drop {
                 timing_std_s: None,
                 bounce_std: None,
             },
-            model: Model::none(),
+            model: Model::default(),
             ball: None,
             budget: None,
             evidence_nats: 0.0,
@@ -167,32 +185,22 @@ impl Drop {
     }
 }
 
-/// Whether an impact was heard.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Status {
-    /// It was.
-    Heard,
-    /// Something was heard, but chance offers as much nearby.
-    Doubtful,
-    /// Nothing was heard; its neighbours say that it was there.
-    Inferred,
-}
-
-impl Status {
-    /// The word of the document.
-    #[must_use]
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Heard => "heard",
-            Self::Doubtful => "doubtful",
-            Self::Inferred => "inferred",
-        }
+words! {
+    /// Whether an impact was heard.
+    #[non_exhaustive]
+    pub enum Status {
+        /// It was.
+        Heard = "heard",
+        /// Something was heard, but chance offers as much nearby.
+        Doubtful = "doubtful",
+        /// Nothing was heard; its neighbours say that it was there.
+        Inferred = "inferred",
     }
 }
 
 /// One impact and the flight after it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Impact {
     /// Seconds from the first sample.
     pub time_s: f64,
@@ -219,7 +227,8 @@ pub struct Impact {
 ///
 /// Speeds are those at the ends of a flight of T less the contact time, under the drag of the selected model if it has
 /// them: without, g·T/2. Null where the flight before or after, which a number rests on, was not heard whole.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Bounce {
     /// Speed of arrival.
     pub impact_speed_m_per_s: Option<f64>,
@@ -240,7 +249,8 @@ pub struct Bounce {
 }
 
 /// The coefficient of restitution of ball and surface.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Restitution {
     /// e.
     #[serde(flatten)]
@@ -248,11 +258,23 @@ pub struct Restitution {
     /// Geometric mean of the impact speeds it was measured at.
     pub at_speed_m_per_s: Option<f64>,
     /// The estimate it comes from.
-    pub method: &'static str,
+    pub method: Method,
+}
+
+words! {
+    /// How e was estimated.
+    #[non_exhaustive]
+    pub enum Method {
+        /// By the model, over all impacts.
+        LeastSquares = "least_squares",
+        /// By one ratio of flights, which has no error.
+        SingleRatio = "single_ratio",
+    }
 }
 
 /// Ways to e, side by side.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Estimates {
     /// Geometric mean of the ratios of successive flights.
     pub flight_ratio: Option<Estimate>,
@@ -265,7 +287,8 @@ pub struct Estimates {
 }
 
 /// How much times and bounces scatter.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Scatter {
     /// Median standard error of the times heard, in seconds.
     pub timing_std_s: Option<f64>,
@@ -273,37 +296,9 @@ pub struct Scatter {
     pub bounce_std: Option<f64>,
 }
 
-/// The model of the flights.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Model {
-    /// Its name: what was fitted beside e.
-    pub selected: &'static str,
-    /// What was given and is in the model too, though its name does not say so: `contact_time`, `drag`.
-    pub given: Vec<&'static str>,
-    /// Its parameters.
-    pub parameters: serde_json::Map<String, serde_json::Value>,
-    /// The models that were compared.
-    pub candidates: Vec<Candidate>,
-    /// Another model that explains the drop as well, with something else in place of what was selected.
-    pub alike: Option<&'static str>,
-}
-
-impl Model {
-    /// That of too few impacts.
-    #[must_use]
-    pub fn none() -> Self {
-        Self {
-            selected: "constant",
-            given: Vec::new(),
-            parameters: serde_json::Map::new(),
-            candidates: Vec::new(),
-            alike: None,
-        }
-    }
-}
-
 /// The mass-spring-damper ball.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Ball {
     /// Contact time ΔT.
     pub contact_time_s: f64,
@@ -326,38 +321,52 @@ pub struct Ball {
     /// Its standard error.
     pub damping_ratio_std: f64,
     /// When contact ends.
-    pub release_rule: &'static str,
+    pub release_rule: ReleaseRule,
     /// Where the contact time comes from.
-    pub source: &'static str,
+    pub source: ContactSource,
+}
+
+words! {
+    /// Where a contact time comes from.
+    #[non_exhaustive]
+    pub enum ContactSource {
+        /// It was given.
+        Given = "given",
+        /// It was fitted to the intervals between impacts.
+        Intervals = "intervals",
+    }
 }
 
 /// A strong event that is no impact.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Rejected {
     /// Seconds from the first sample.
     pub time_s: f64,
-    /// Why, in a word.
-    pub reason: &'static str,
+    /// Why.
+    pub reason: RejectReason,
     /// Why, in a sentence's part.
     pub detail: String,
 }
 
-/// Something the user should know, and what to do about it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct Warning {
-    /// A word for programs.
-    pub code: &'static str,
-    /// A sentence for people.
-    pub message: String,
-}
-
-impl Warning {
-    /// A warning.
-    #[must_use]
-    pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self {
-            code,
-            message: message.into(),
-        }
+words! {
+    /// Why an event is no impact.
+    #[non_exhaustive]
+    pub enum RejectReason {
+        /// It follows many impacts by the same time.
+        Echo = "echo",
+        /// It is the sound of an impact nearby.
+        NearImpact = "near_impact",
+        /// It lies between impacts, where no flight ends.
+        OffSequence = "off_sequence",
+        /// It belongs to no drop.
+        NoSequence = "no_sequence",
     }
 }
+
+fn infinite_where_null<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    Option::deserialize(deserializer).map(|number| number.unwrap_or(f64::INFINITY))
+}
+
+#[cfg(all(test, feature = "lab"))]
+mod tests;

@@ -1,17 +1,19 @@
 //! What a rule book says of a ball, as data and in words.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Report;
 use crate::fit::Estimate;
+use crate::words::words;
 
 /// A rule and what each drop says of it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct RuleReport {
     /// Its name on the command line.
-    pub name: &'static str,
+    pub name: String,
     /// Where it stands.
-    pub source: &'static str,
+    pub source: String,
     /// From the ball's lowest point to the surface at release, in metres.
     pub drop_height_m: f64,
     /// The rebound that is allowed, to the ball's lowest point, in metres.
@@ -29,7 +31,8 @@ pub struct RuleReport {
 }
 
 /// How far apart rebounds may be.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Spread {
     /// The highest less the lowest, in metres.
     pub greatest_m: f64,
@@ -37,32 +40,22 @@ pub struct Spread {
     pub drops: usize,
 }
 
-/// Whether a ball keeps to a rule.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Outcome {
-    /// The whole 95 % interval is allowed.
-    Pass,
-    /// None of it is.
-    Fail,
-    /// A part of it is, or there is no interval.
-    Undecided,
-}
-
-impl Outcome {
-    /// The word of the document.
-    #[must_use]
-    pub const fn word(self) -> &'static str {
-        match self {
-            Self::Pass => "pass",
-            Self::Fail => "fail",
-            Self::Undecided => "undecided",
-        }
+words! {
+    /// Whether a ball keeps to a rule.
+    #[non_exhaustive]
+    pub enum Outcome {
+        /// The whole 95 % interval is allowed.
+        Pass = "pass",
+        /// None of it is.
+        Fail = "fail",
+        /// A part of it is, or there is no interval.
+        Undecided = "undecided",
     }
 }
 
 /// What a drop says of a rule.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Judged {
     /// Whether the ball keeps to it.
     pub outcome: Outcome,
@@ -115,7 +108,7 @@ pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
 
 /// What all drops together say of the rule.
 pub(super) fn spread(report: &Report) -> Option<String> {
-    let rule = report.analysis.rule.as_ref()?;
+    let rule = report.rule.as_ref()?;
     let (spread_m, allowed) = (rule.spread_m?, rule.allowed_spread?);
     let unit = Unit::of(rule);
     Some(format!(

@@ -1,11 +1,12 @@
 //! The report for a person: the answer first, then the impacts, then what to know.
 
 use super::{
-    Ball, Drop, Estimates, Impact, Model, Rejected, Report, Warning, rule, table, wrap::wrapped,
+    Ball, Drop, Estimates, Given, Impact, Model, Rejected, Report, Warning, rule, table,
+    wrap::wrapped,
 };
-use crate::fit::Estimate;
 use crate::fit::ladder::ALIKE;
 use crate::fit::model::Budget;
+use crate::fit::{Estimate, ModelKind};
 
 /// How much is said.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,7 +23,7 @@ pub enum Detail {
 #[must_use]
 pub fn to_text(report: &Report, detail: Detail) -> String {
     let mut out = String::new();
-    let drops = &report.analysis.drops;
+    let drops = &report.drops;
     let count = drops.len();
     line(
         &mut out,
@@ -33,7 +34,7 @@ pub fn to_text(report: &Report, detail: Detail) -> String {
         },
     );
     let judged = |i| {
-        let judged = report.analysis.rule.as_ref();
+        let judged = report.rule.as_ref();
         judged.map_or_else(Vec::new, |judged| rule::entries(judged, i))
     };
     for (i, drop) in drops.iter().enumerate() {
@@ -57,12 +58,12 @@ pub fn to_text(report: &Report, detail: Detail) -> String {
         } else {
             "outside the drops"
         };
-        rejects(&mut out, &report.analysis.rejected, place, detail);
+        rejects(&mut out, &report.rejected, place, detail);
     }
     if let Some(spread) = rule::spread(report) {
         line(&mut out, &format!("\n{}", wrapped(&spread, 2)));
     }
-    warnings(&mut out, &report.analysis.warnings);
+    warnings(&mut out, &report.warnings);
     out
 }
 
@@ -127,21 +128,19 @@ fn ways(out: &mut String, estimates: &Estimates) {
 
 /// The model beyond constant e, with what it fitted: `contact+drag: contact 0.78 ± 0.12 ms, drag K 1.26 ± 0.07 s⁻²`.
 fn model(drop: &Drop) -> Option<String> {
-    let of = |name: &str, scale: f64| {
-        let entry = drop.model.parameters.get(name)?;
-        let number = |key: &str| Some(scale * entry.get(key)?.as_f64()?);
-        Some((number("value")?, number("std_error")))
-    };
-    let shown = |name: &str, label: &str, unit: &str, scale: f64| {
-        let (value, std) = of(name, scale)?;
+    let shown = |parameter: Option<Estimate>, label: &str, unit: &str, scale: f64| {
+        let parameter = parameter?;
+        let (value, std) = (scale * parameter.value, parameter.std_error);
+        let std = std.map(|s| scale * s);
         let digits = digits_for(std.unwrap_or(value));
         let error = std.map_or_else(String::new, |s| format!(" ± {s:.digits$}"));
         Some(format!("{label} {value:.digits$}{error}{unit}"))
     };
+    let of = &drop.model.parameters;
     let terms: Vec<String> = [
-        shown("contact_time_s", "contact", " ms", 1e3),
-        shown("drag_per_s2", "drag K", " s⁻²", 1.0),
-        shown("speed_exponent", "speed exponent", "", 1.0),
+        shown(of.contact_time_s, "contact", " ms", 1e3),
+        shown(of.drag_per_s2, "drag K", " s⁻²", 1.0),
+        shown(of.speed_exponent, "speed exponent", "", 1.0),
     ]
     .into_iter()
     .flatten()
@@ -150,7 +149,7 @@ fn model(drop: &Drop) -> Option<String> {
     match (terms.is_empty(), drop.model.selected) {
         (false, _) => Some(format!("{name}: {}", terms.join(", "))),
         // It has no parameter beyond e.
-        (true, "viscoelastic") => Some(format!("{name}: ln e in proportion to v^(1/5)")),
+        (true, ModelKind::Viscoelastic) => Some(format!("{name}: ln e in proportion to v^(1/5)")),
         (true, _) => None,
     }
 }
@@ -158,17 +157,18 @@ fn model(drop: &Drop) -> Option<String> {
 /// By how much the model is better than constant e, and which others are as likely: `10.2 nats better than constant e; as
 /// likely: linear (e 0.8641)`.
 fn rivals(model: &Model) -> Option<String> {
-    let gain = |name: &str| {
-        let found = model.candidates.iter().find(|c| c.model == name);
+    let gain = |kind: ModelKind| {
+        let found = model.candidates.iter().find(|c| c.model == kind);
         found.map(|c| c.gain_nats)
     };
-    let own = gain(model.selected)?;
+    let (selected, constant) = (model.selected, ModelKind::Constant);
+    let own = gain(selected)?;
     let mut parts = Vec::new();
-    if let Some(constant) = gain("constant").filter(|_| model.selected != "constant") {
+    if let Some(constant) = gain(constant).filter(|_| selected != constant) {
         parts.push(format!("{:.1} nats better than constant e", own - constant));
     }
     let as_likely = model.candidates.iter().filter(|c| {
-        c.model != model.selected && c.model != "constant" && (c.gain_nats - own).abs() < ALIKE
+        c.model != selected && c.model != constant && (c.gain_nats - own).abs() < ALIKE
     });
     let named: Vec<String> = as_likely
         .map(|c| format!("{} (e {:.4})", c.model, c.restitution))
@@ -181,18 +181,19 @@ fn rivals(model: &Model) -> Option<String> {
 
 /// The name of a model, with what it has because it was given: `constant e, with the contact time given`.
 pub(crate) fn model_name(model: &Model) -> String {
-    let given: Vec<&str> = model
-        .given
-        .iter()
-        .map(|&term| match term {
-            "contact_time" => "contact time",
-            other => other,
-        })
-        .collect();
-    match (model.selected, given.is_empty()) {
-        (selected, true) => selected.to_owned(),
-        ("constant", false) => format!("constant e, with the {} given", given.join(" and ")),
-        (selected, false) => format!("{selected}, with the {} given", given.join(" and ")),
+    let given = model.given.iter().map(|term| match term {
+        Given::ContactTime => "contact time",
+        Given::Drag => "drag",
+    });
+    let given: Vec<&str> = given.collect();
+    let name = match model.selected {
+        ModelKind::Constant => "constant e",
+        other => other.word(),
+    };
+    if given.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name}, with the {} given", given.join(" and "))
     }
 }
 
@@ -330,18 +331,19 @@ mod tests {
 
     #[test]
     fn a_model_says_what_it_has_because_it_was_given() {
-        let named = |selected, given: &[&'static str]| {
+        let named = |selected, given: &[Given]| {
             let given = given.to_vec();
             model_name(&Model {
                 selected,
                 given,
-                ..Model::none()
+                ..Model::default()
             })
         };
-        assert_eq!(named("contact+drag", &[]), "contact+drag");
-        let contact = named("constant", &["contact_time"]);
+        assert_eq!(named(ModelKind::ContactDrag, &[]), "contact+drag");
+        assert_eq!(named(ModelKind::Constant, &[]), "constant e");
+        let contact = named(ModelKind::Constant, &[Given::ContactTime]);
         assert_eq!(contact, "constant e, with the contact time given");
-        let both = named("speed", &["contact_time", "drag"]);
+        let both = named(ModelKind::Speed, &[Given::ContactTime, Given::Drag]);
         assert_eq!(both, "speed, with the contact time and drag given");
     }
 
@@ -349,7 +351,7 @@ mod tests {
     fn a_model_without_a_parameter_of_its_own_is_named_all_the_same() {
         let mut drop = Drop::empty();
         assert_eq!(model(&drop), None);
-        drop.model.selected = "viscoelastic";
+        drop.model.selected = ModelKind::Viscoelastic;
         let told = model(&drop).unwrap();
         assert!(told.starts_with("viscoelastic: ln e"), "{told}");
     }
@@ -362,20 +364,20 @@ mod tests {
             restitution,
         };
         let mut model = Model {
-            selected: "contact",
+            selected: ModelKind::Contact,
             candidates: vec![
-                candidate("constant", 0.0, 0.88),
-                candidate("contact", 10.2, 0.878),
-                candidate("linear", 9.0, 0.864),
-                candidate("drag", 1.0, 0.87),
+                candidate(ModelKind::Constant, 0.0, 0.88),
+                candidate(ModelKind::Contact, 10.2, 0.878),
+                candidate(ModelKind::Linear, 9.0, 0.864),
+                candidate(ModelKind::Drag, 1.0, 0.87),
             ],
-            ..Model::none()
+            ..Model::default()
         };
         assert_eq!(
             rivals(&model).unwrap(),
             "10.2 nats better than constant e; as likely: linear (e 0.8640)"
         );
-        model.selected = "constant";
+        model.selected = ModelKind::Constant;
         assert_eq!(rivals(&model).unwrap(), "as likely: drag (e 0.8700)");
     }
 

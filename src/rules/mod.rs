@@ -11,8 +11,8 @@ pub use catalogue::{RULES, Rule, rule};
 
 use crate::Error;
 use crate::physics::Sphere;
+use crate::report::Drop;
 use crate::report::rule::RuleReport;
-use crate::report::{Analysis, Drop};
 
 impl Rule {
     /// The ball of this mass and diameter, where they are known, and else of the rule.
@@ -25,18 +25,18 @@ impl Rule {
     }
 }
 
-/// Judges every drop of an analysis, which was made with the mass and diameter of this ball.
+/// Judges every drop of a recording, which was analyzed with the mass and diameter of this ball.
 ///
 /// # Errors
 /// [`Error::Argument`] for a ball or gravity that is none.
 pub fn judge(
     rule: &Rule,
-    analysis: &Analysis,
+    drops: &[Drop],
     ball: Sphere,
     gravity_m_per_s2: f64,
 ) -> Result<RuleReport, Error> {
     let test = verdict::Test::new(rule, ball, gravity_m_per_s2)?;
-    let judged = analysis.drops.iter().map(|drop: &Drop| test.judge(drop));
+    let judged = drops.iter().map(|drop| test.judge(drop));
     let drops = judged.collect::<Result<Vec<_>, Error>>()?;
     let rebounds = || drops.iter().filter_map(|d| Some(d.rebound_m?.value));
     let (low, high) = (
@@ -44,8 +44,8 @@ pub fn judge(
         rebounds().fold(f64::NEG_INFINITY, f64::max),
     );
     Ok(RuleReport {
-        name: rule.name,
-        source: rule.source,
+        name: rule.name.to_owned(),
+        source: rule.source.to_owned(),
         drop_height_m: rule.drop_height_m,
         allowed_m: rule.allowed_m,
         mass_kg: ball.mass_kg,

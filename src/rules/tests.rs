@@ -2,9 +2,10 @@
 
 use super::*;
 use crate::fit::Estimate;
-use crate::physics::FlightLaw;
-use crate::report::rule::Outcome;
-use crate::report::{Bounce, Drop, Impact, Restitution, Scatter, Status};
+use crate::fit::ModelKind;
+use crate::physics::{FlightLaw, LinearContact, Rebound, Restitution};
+use crate::report::rule::{Judged, Outcome};
+use crate::report::{self, Bounce, Drop, Impact, Method, Scatter, Status};
 
 const G: f64 = 9.81;
 
@@ -28,14 +29,14 @@ fn heard(e: f64, std: f64) -> Drop {
     Drop {
         impacts: [3.0, 1.5, 0.5].map(impact).to_vec(),
         bounces: 30,
-        restitution: Some(Restitution {
+        restitution: Some(report::Restitution {
             estimate: Estimate {
                 value: e,
                 std_error: Some(std),
                 interval95: Some([e - 2.0 * std, e + 2.0 * std]),
             },
             at_speed_m_per_s: Some(1.2),
-            method: "test",
+            method: Method::LeastSquares,
         }),
         scatter: Scatter {
             timing_std_s: None,
@@ -45,19 +46,12 @@ fn heard(e: f64, std: f64) -> Drop {
     }
 }
 
-fn report(rule: &Rule, drops: Vec<Drop>) -> RuleReport {
-    let analysis = Analysis {
-        drops,
-        rejected: Vec::new(),
-        rejected_weak: 0,
-        rule: None,
-        warnings: Vec::new(),
-    };
-    judge(rule, &analysis, rule.ball(None, None), G).unwrap()
+fn report(rule: &Rule, drops: &[Drop]) -> RuleReport {
+    judge(rule, drops, rule.ball(None, None), G).unwrap()
 }
 
-fn judged(rule: &Rule, drop: Drop) -> crate::report::rule::Judged {
-    report(rule, vec![drop]).drops.remove(0)
+fn judged(rule: &Rule, drop: Drop) -> Judged {
+    report(rule, &[drop]).drops.remove(0)
 }
 
 /// A rule for a heavy ball, which the air hardly slows.
@@ -155,7 +149,7 @@ fn beyond_the_speeds_heard_the_error_grows_and_it_is_said() {
     }
     let far = judged(&steel(), slow);
     assert!(far.extrapolated && !near.extrapolated);
-    let std = |j: &crate::report::rule::Judged| j.rebound_m.unwrap().std_error.unwrap();
+    let std = |j: &Judged| j.rebound_m.unwrap().std_error.unwrap();
     let beyond = (far.impact_speed_m_per_s / 1.5).ln();
     let expected = 2.0 * 0.89_f64.powi(2) * 0.305 * (0.0005_f64 / 0.89).hypot(0.05 * beyond);
     assert!((std(&far) / expected - 1.0).abs() < 1e-3);
@@ -165,11 +159,11 @@ fn beyond_the_speeds_heard_the_error_grows_and_it_is_said() {
 #[test]
 fn an_e_that_falls_with_speed_is_taken_at_the_speed_of_the_rule() {
     let mut drop = heard(0.91, 0.001);
-    let exponent = serde_json::json!({"value": 0.05, "std_error": 0.01});
-    drop.model.selected = "speed";
-    drop.model
-        .parameters
-        .insert("speed_exponent".to_owned(), exponent);
+    drop.model.selected = ModelKind::Speed;
+    drop.model.parameters.speed_exponent = Some(Estimate {
+        std_error: Some(0.01),
+        ..Estimate::bare(0.05)
+    });
     let found = judged(&steel(), drop);
     let ln_speed = (found.impact_speed_m_per_s / 1.2).ln();
     let e = found.restitution.unwrap();
@@ -182,7 +176,7 @@ fn an_e_that_falls_with_speed_is_taken_at_the_speed_of_the_rule() {
 #[test]
 fn a_viscoelastic_ball_loses_as_the_fifth_root_of_the_speed_of_the_rule() {
     let mut drop = heard(0.91, 0.001);
-    drop.model.selected = "viscoelastic";
+    drop.model.selected = ModelKind::Viscoelastic;
     let found = judged(&steel(), drop);
     let factor = (found.impact_speed_m_per_s / 1.2).powf(0.2);
     let e = found.restitution.unwrap();
@@ -195,11 +189,8 @@ fn a_viscoelastic_ball_loses_as_the_fifth_root_of_the_speed_of_the_rule() {
 #[test]
 fn a_linear_ball_loses_less_at_the_speed_of_the_rule() {
     let mut drop = heard(0.91, 0.001);
-    let contact = serde_json::json!({"value": 1e-3, "std_error": 1e-5});
-    drop.model.selected = "linear";
-    drop.model
-        .parameters
-        .insert("contact_time_s".to_owned(), contact);
+    drop.model.selected = ModelKind::Linear;
+    drop.model.parameters.contact_time_s = Some(Estimate::bare(1e-3));
     let found = judged(&steel(), drop);
     // ω = π/ΔT and ζ = −ln e/π to first order; e was heard at 1.2 m/s.
     let (omega, zeta) = (
@@ -213,9 +204,25 @@ fn a_linear_ball_loses_less_at_the_speed_of_the_rule() {
 }
 
 #[test]
+fn the_gain_of_a_soft_linear_ball_is_that_of_the_exact_contact() {
+    let mut drop = heard(0.75, 0.001);
+    drop.model.selected = ModelKind::Linear;
+    drop.model.parameters.contact_time_s = Some(Estimate::bare(12e-3));
+    let found = judged(&steel(), drop);
+    let e = Restitution::new(0.75).unwrap();
+    let contact = LinearContact::with_restitution_at(e, 1.2, 12e-3, G).unwrap();
+    let Rebound::Leaves(leaving) = contact.rebound(found.impact_speed_m_per_s).unwrap() else {
+        panic!("it leaves");
+    };
+    let exact = leaving.restitution.value();
+    assert!((found.restitution.unwrap() - exact).abs() < 1e-12);
+    assert!(exact > 0.751);
+}
+
+#[test]
 fn rebounds_of_several_drops_have_a_spread() {
     let fifa = rule("fifa-pro").unwrap();
-    let report = report(&fifa, vec![heard(0.85, 0.001), heard(0.87, 0.001)]);
+    let report = report(&fifa, &[heard(0.85, 0.001), heard(0.87, 0.001)]);
     let of = |i: usize| report.drops[i].rebound_m.unwrap().value;
     assert!((report.spread_m.unwrap() - (of(1) - of(0))).abs() < 1e-12);
     assert_eq!(report.allowed_spread.unwrap().drops, 10);

@@ -4,16 +4,12 @@ use super::Rule;
 use super::decide::{Causes, would_decide};
 use crate::Error;
 use crate::fit::Estimate;
-use crate::physics::{
-    Air, DRAG_RELATIVE_STD, FlightLaw, Oscillator, Restitution, Sphere, VISCOELASTIC_POWER,
-};
+use crate::physics::priors::SPEED_EXPONENT_BEYOND;
+use crate::physics::{Air, DRAG_RELATIVE_STD, FlightLaw, Restitution, Sphere};
+use crate::report::Drop;
 use crate::report::rule::{Judged, Outcome};
-use crate::report::{Drop, Model};
 use crate::statistics::NORMAL95;
 
-/// Outside the speeds that were heard e may depend on speed as that of balls at large does, `e ∝ v^−p` with p of this
-/// size: by so much is ln e off for each unit of ln v.
-const EXPONENT_BEYOND: f64 = 0.05;
 /// A rule's drop of a ball.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Test<'a> {
@@ -126,56 +122,27 @@ impl<'a> Test<'a> {
         Ok(0.5 * (self.rebound_m(less, ln_e)? - self.rebound_m(more, ln_e)?).abs())
     }
 
-    /// ln e at the rule's speed under the selected model, from e at the mean speed heard.
+    /// ln e at the rule's speed under the selected model.
     fn at_speed(&self, drop: &Drop, e: f64, measured: Option<[f64; 2]>) -> AtSpeed {
         let mean = drop.restitution.as_ref().and_then(|r| r.at_speed_m_per_s);
-        let ln_speed = mean.map_or(0.0, |mean| (self.speed / mean).ln());
         let beyond = measured.map_or(0.0, |[slowest, fastest]| {
             (self.speed / fastest)
                 .ln()
                 .max((slowest / self.speed).ln())
                 .max(0.0)
         });
-        let exponent = parameter(&drop.model, "speed_exponent");
-        let by_model = exponent.map_or(0.0, |(_, std)| std * ln_speed);
         // A fitted exponent has its own error out there.
-        let by_chance = exponent.map_or(EXPONENT_BEYOND * beyond, |_| 0.0);
-        let by_law = exponent.map_or(0.0, |(p, _)| p * ln_speed);
-        let viscoelastic = drop.model.selected == "viscoelastic";
-        let factor = if viscoelastic {
-            (VISCOELASTIC_POWER * ln_speed).exp()
-        } else {
-            1.0
+        let std = match (drop.model.parameters.speed_exponent, mean) {
+            (Some(p), Some(mean)) => p.std_error.unwrap_or(0.0) * (self.speed / mean).ln(),
+            _ => SPEED_EXPONENT_BEYOND * beyond,
         };
-        let ln = factor * e.ln() - by_law + self.by_weight(drop, e);
+        let ball = drop.ball_model(self.gravity_m_per_s2);
+        let there = ball.and_then(|ball| ball.restitution(self.speed));
         AtSpeed {
-            // However a model is drawn out, no ball gains.
-            ln: ln.min(-f64::EPSILON),
-            std: by_model.hypot(by_chance),
+            ln: there.map_or_else(|| e.ln().min(-f64::EPSILON), Restitution::ln),
+            std: std.abs(),
             extrapolated: beyond > 0.0,
         }
-    }
-
-    /// How much ln e of a linear ball is greater at the rule's speed than at the mean speed heard: its weight takes less
-    /// from fast impacts.
-    ///
-    /// # Formula
-    /// ```text
-    /// e(v) ≈ e₀ − 2ζ(1 + e₀)·g/(ω·v)
-    /// ```
-    fn by_weight(&self, drop: &Drop, e: f64) -> f64 {
-        if !drop.model.selected.starts_with("linear") {
-            return 0.0;
-        }
-        let gain = || {
-            let mean = drop.restitution.as_ref()?.at_speed_m_per_s?;
-            let (contact_s, _) = parameter(&drop.model, "contact_time_s")?;
-            let ball = Oscillator::from_contact(Restitution::new(e).ok()?, contact_s).ok()?;
-            let rate = 2.0 * ball.damping_ratio() * (1.0 + e) * self.gravity_m_per_s2
-                / ball.natural_frequency_rad_per_s();
-            Some(rate * (1.0 / mean - 1.0 / self.speed) / e)
-        };
-        gain().filter(|g: &f64| g.is_finite()).unwrap_or(0.0)
     }
 }
 
@@ -185,13 +152,6 @@ fn outcome(rebound: Estimate, [least, most]: [f64; 2]) -> Outcome {
         Some([low, high]) if high < least || low > most => Outcome::Fail,
         _ => Outcome::Undecided,
     }
-}
-
-/// Value and standard error of a parameter that was fitted or given.
-fn parameter(model: &Model, name: &str) -> Option<(f64, f64)> {
-    let entry = model.parameters.get(name)?;
-    let number = |key: &str| entry.get(key)?.as_f64();
-    Some((number("value")?, number("std_error").unwrap_or(0.0)))
 }
 
 /// Speeds of the impacts of which e was measured.

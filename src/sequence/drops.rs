@@ -6,7 +6,6 @@ use super::reassociate::reassociated;
 use super::seeds::seeds;
 use super::track::{Scene, Step, follow};
 use super::{Event, Settings};
-use crate::Error;
 use crate::units::real;
 
 /// One impact of a drop.
@@ -87,13 +86,10 @@ const LEAST_FLIGHT_S: f64 = 0.025;
 pub(super) const GREATEST_RATIO: f64 = 0.985;
 
 /// Finds the drops among events in order of time.
-///
-/// # Errors
-/// [`Error::Argument`] if a setting is not positive.
-pub fn find(events: &[Event], settings: &Settings) -> Result<Found, Error> {
-    settings.check()?;
+#[must_use]
+pub fn find(events: &[Event], settings: &Settings) -> Found {
     if events.is_empty() {
-        return Ok(Found::default());
+        return Found::default();
     }
     let clutter = Clutter::new(events);
     let scene = Scene::new(events, &clutter, settings);
@@ -117,7 +113,7 @@ pub fn find(events: &[Event], settings: &Settings) -> Result<Found, Error> {
         }
     }
     drops.sort_by(|a, b| a.span_s().0.total_cmp(&b.span_s().0));
-    Ok(reasons::explain(&scene, drops, &taken))
+    reasons::explain(&scene, drops, &taken)
 }
 
 /// The best chains among some of the events that share none, and are no echo of one another or of the drops known.

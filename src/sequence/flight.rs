@@ -2,6 +2,9 @@
 
 use super::Settings;
 use crate::linalg::dot;
+use crate::physics::priors::{
+    Known, LN_RESTITUTION, TRACKED_BOUNCE_STDS, TRACKED_CONTACT_S, TRACKED_DRAG_PER_S2,
+};
 use crate::units::real;
 
 /// A line for ln of the flights' ratios, kept as a Kalman filter of three states with its own scatter.
@@ -34,18 +37,20 @@ pub struct Doubt {
     /// How far off the times may be, in seconds.
     pub jitter_s: f64,
 }
-/// ρ before any flight is known: e about 0.82, and with a spread that covers 0.35 to 0.99.
-const RHO: (f64, f64) = (-0.2, 0.35);
-/// κ before any flight is known, s⁻²: from none to twice that of a ping-pong ball.
-const KAPPA: (f64, f64) = (0.05, 0.1);
-/// C before any flight is known, s: from none to the contact of a basketball.
-const CONTACT_S: (f64, f64) = (0.5e-3, 1.5e-3);
+
+/// ρ, κ = K/8 and C before any flight is known.
+const PRIOR: [Known; STATES] = [
+    LN_RESTITUTION,
+    Known {
+        value: TRACKED_DRAG_PER_S2.value / 8.0,
+        std: TRACKED_DRAG_PER_S2.std / 8.0,
+    },
+    TRACKED_CONTACT_S,
+];
 /// How much ln e wanders from one bounce to the next.
 const WANDER: f64 = 3e-3;
 /// Share of the newest bounce in the scatter: a memory of the last four or five.
 const NEWEST_SHARE: f64 = 0.2;
-/// Range of the scatter that is believed: a few flights may agree by chance, and what scatters more is no ball.
-const SCATTER: (f64, f64) = (3e-3, 0.05);
 /// A match farther off than this many standard deviations is none.
 pub(super) const GATE: f64 = 6.0;
 
@@ -84,20 +89,14 @@ impl FlightLaw {
     #[must_use]
     pub fn prior(settings: &Settings) -> Self {
         let mut covariance = [[0.0; STATES]; STATES];
-        for (i, (_, sd)) in [RHO, KAPPA, CONTACT_S].into_iter().enumerate() {
-            covariance[i][i] = sd * sd;
+        for (i, known) in PRIOR.into_iter().enumerate() {
+            covariance[i][i] = known.std * known.std;
         }
         Self {
-            state: [RHO.0, KAPPA.0, CONTACT_S.0],
+            state: PRIOR.map(|known| known.value),
             covariance,
             scatter: settings.bounce_scatter,
         }
-    }
-
-    /// ln e at low speed, as far as it is known.
-    #[must_use]
-    pub const fn ln_restitution(&self) -> f64 {
-        self.state[0]
     }
 
     /// The same law with the scatter of balls at large: what follows may lie far from what was learnt last.
@@ -165,7 +164,9 @@ impl FlightLaw {
         // Of the deviation, the bounce owns the share that its variance has.
         let own = squared * expected.scatter / expected.variance();
         let scatter = (1.0 - NEWEST_SHARE) * self.scatter * self.scatter + NEWEST_SHARE * own;
-        self.scatter = scatter.sqrt().clamp(SCATTER.0, SCATTER.1);
+        self.scatter = scatter
+            .sqrt()
+            .clamp(TRACKED_BOUNCE_STDS.0, TRACKED_BOUNCE_STDS.1);
     }
 
     /// How ln(T'/T) depends on ρ, κ and C.
@@ -203,7 +204,7 @@ mod tests {
         for pair in flights.windows(2) {
             law.learn(pair[0], pair[1], SHARP);
         }
-        assert!((law.ln_restitution() - e.ln()).abs() < 0.005, "{law:?}");
+        assert!((law.state[0] - e.ln()).abs() < 0.005, "{law:?}");
         for pair in flights.windows(2).rev().take(10) {
             assert!((law.next_s(pair[0]) / pair[1] - 1.0).abs() < 0.01);
             assert!((law.previous_s(pair[1]) / pair[0] - 1.0).abs() < 0.01);
@@ -217,8 +218,8 @@ mod tests {
         for _ in 0..10 {
             law.learn(0.3, 0.27, SHARP);
         }
-        let before = law.ln_restitution();
+        let before = law.state[0];
         law.learn(0.3, 0.27 * 1.2, SHARP);
-        assert!((law.ln_restitution() - before).abs() < 0.02);
+        assert!((law.state[0] - before).abs() < 0.02);
     }
 }

@@ -15,7 +15,7 @@ pub mod track;
 pub use drops::{Chain, Found, Link, find, follow_again};
 pub use reasons::{Reason, Rejected, is_echo_of};
 
-use crate::Error;
+use crate::physics::priors::TRACKED_BOUNCE_STD;
 
 /// What is known of balls before listening. Defaults suit drops from centimetres to metres.
 #[derive(Debug, Clone)]
@@ -38,26 +38,10 @@ impl Default for Settings {
         Self {
             longest_flight_s: 2.0,
             shortest_flight_s: 4e-3,
-            bounce_scatter: 0.01,
+            bounce_scatter: TRACKED_BOUNCE_STD,
 
             least_evidence: 12.0,
         }
-    }
-}
-
-impl Settings {
-    pub(crate) fn check(&self) -> Result<(), Error> {
-        for (name, value) in [
-            ("longest_flight_s", self.longest_flight_s),
-            ("shortest_flight_s", self.shortest_flight_s),
-            ("bounce_scatter", self.bounce_scatter),
-            ("least_evidence", self.least_evidence),
-        ] {
-            if !(value.is_finite() && value > 0.0) {
-                return Err(Error::argument(name, value, "a positive number"));
-            }
-        }
-        Ok(())
     }
 }
 

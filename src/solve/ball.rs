@@ -53,14 +53,14 @@ pub struct SolvedBall {
 pub struct Rest {
     /// By (19): constant e, rest when the rebound is no higher than the rest position is deep.
     pub impacts_by_eq19: usize,
-    /// The exact linear ball with this k and c, its weight kept at every impact; null beyond [`MOST_IMPACTS`].
+    /// The exact linear ball with this k and c, its weight kept at every impact; null beyond `MOST_IMPACTS`.
     pub impacts_exact: Option<usize>,
     /// Moment of the last of them, from release.
     pub last_impact_exact_s: Option<f64>,
 }
 
 /// How many impacts are followed at most. Lively beyond belief: at e = 0.999 a ball of 1 ms rests after 6,400.
-pub const MOST_IMPACTS: usize = 100_000;
+const MOST_IMPACTS: usize = 100_000;
 
 impl SolvedBall {
     /// The ball with this restitution and contact time; `series` is the drop it rests from, if there is one.

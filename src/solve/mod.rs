@@ -25,9 +25,9 @@ pub mod text;
 mod total_time;
 mod warnings;
 
-pub use ball::{MOST_IMPACTS, Parameters, Rest, SolvedBall};
+pub use ball::{Parameters, Rest, SolvedBall};
 pub use contact::{ContactInputs, ContactSolution, from_contact};
-pub use total_time::{Conditioning, TotalTimeInputs, TotalTimeSolution, from_total_time};
+pub use total_time::{TotalTimeInputs, TotalTimeSolution, from_total_time};
 
 use serde::Serialize;
 

@@ -2,7 +2,7 @@
 
 use super::{ContactSolution, SolvedBall, TotalTimeSolution, numbers};
 use crate::Error;
-use crate::report::Warning;
+use crate::report::{Warning, WarningCode};
 
 /// From here on a relative error of ΔT is no longer small, and k, which goes with its square, is known to a factor only.
 const LARGE_ERROR: f64 = 0.3;
@@ -33,7 +33,7 @@ pub(super) fn of_contact(solution: &ContactSolution) -> Vec<Warning> {
             "(19) has this ball rest after {by_eq19} impacts, but with its weight kept at every impact it rests after \
              {exact}: e falls as the ball slows down."
         );
-        warnings.push(Warning::new("rest_is_earlier", message));
+        warnings.push(Warning::new(WarningCode::RestIsEarlier, message));
     }
     warnings.extend(large_error(&solution.ball));
     warnings.push(release());
@@ -60,7 +60,10 @@ fn conditioning(solution: &TotalTimeSolution) -> Option<Warning> {
     if solution.inputs.contact_time_s.is_none() {
         message += " Where k and c matter, measure ΔT and give it as --contact-time.";
     }
-    Some(Warning::new("contact_time_ill_conditioned", message))
+    Some(Warning::new(
+        WarningCode::ContactTimeIllConditioned,
+        message,
+    ))
 }
 
 fn lower_bound(solution: &TotalTimeSolution) -> Warning {
@@ -77,7 +80,7 @@ fn lower_bound(solution: &TotalTimeSolution) -> Warning {
             numbers::change(contact, more)
         );
     }
-    Warning::new("bounces_are_a_lower_bound", message)
+    Warning::new(WarningCode::BouncesAreALowerBound, message)
 }
 
 fn rest_counts(ball: &SolvedBall) -> Option<(usize, usize)> {
@@ -93,7 +96,7 @@ fn rest(solution: &TotalTimeSolution) -> Option<Warning> {
         "(20) and (25) assume that the ball rests after bounce {n}, by (19). With its weight kept at every impact, the \
          ball of (25) rests after {exact}."
     );
-    Some(Warning::new("rest_is_assumed", message))
+    Some(Warning::new(WarningCode::RestIsAssumed, message))
 }
 
 fn large_error(ball: &SolvedBall) -> Option<Warning> {
@@ -103,7 +106,7 @@ fn large_error(ball: &SolvedBall) -> Option<Warning> {
          order, which is too narrow here.",
         100.0 * relative
     );
-    (relative > LARGE_ERROR).then(|| Warning::new("contact_time_uncertain", message))
+    (relative > LARGE_ERROR).then(|| Warning::new(WarningCode::ContactTimeUncertain, message))
 }
 
 fn rough_eq30(solution: &TotalTimeSolution) -> Option<Warning> {
@@ -112,7 +115,8 @@ fn rough_eq30(solution: &TotalTimeSolution) -> Option<Warning> {
         "(30) leaves out contact and the end of the bouncing: its e is off by {} here. Take that of (25).",
         numbers::plain((rough - exact).abs())
     );
-    ((rough - exact).abs() > ROUGH_RESTITUTION).then(|| Warning::new("eq30_is_rough", message))
+    ((rough - exact).abs() > ROUGH_RESTITUTION)
+        .then(|| Warning::new(WarningCode::Eq30IsRough, message))
 }
 
 /// Why nothing was solved with the contact time that was given.
@@ -122,7 +126,7 @@ fn does_not_fit(bounces: usize, reason: &Error) -> Warning {
     } else {
         format!("the contact time given does not fit {bounces} bounces: {reason}.")
     };
-    Warning::new("contact_time_does_not_fit", message)
+    Warning::new(WarningCode::ContactTimeDoesNotFit, message)
 }
 
 /// The contact time that was given against that of (20), and the bounces it stands for against those heard.
@@ -140,12 +144,12 @@ fn disagreement(solution: &TotalTimeSolution) -> Option<Warning> {
         numbers::time(given),
         numbers::bounces(rest.impacts_by_eq19),
     );
-    (rest.impacts_by_eq19 != n).then(|| Warning::new("contact_times_disagree", message))
+    (rest.impacts_by_eq19 != n).then(|| Warning::new(WarningCode::ContactTimesDisagree, message))
 }
 
 fn drag() -> Warning {
     Warning::new(
-        "drag_is_left_out",
+        WarningCode::DragIsLeftOut,
         "air drag is left out: speed lost in the air is booked as lost in the bounce, so e reads too low. A ping-pong \
          ball of e = 0.94 from 30 cm reads 0.929; a steel ball is off by less than 0.001.",
     )
@@ -153,7 +157,7 @@ fn drag() -> Warning {
 
 fn release() -> Warning {
     Warning::new(
-        "release_rule",
+        WarningCode::ReleaseRule,
         "k and c belong to a ball that leaves the surface undeformed (x = 0), the rule of the paper. A ball that leaves \
          when the contact force is zero has other k and c at the same e and ΔT.",
     )

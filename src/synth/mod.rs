@@ -3,7 +3,7 @@
 //! [`scene`] says what is dropped and how it is recorded, [`sound`] gives one impact's sound in closed form at any
 //! instant, [`room`] its reflections, [`ambience`] and [`bursts`] what is heard besides, [`recorder`] what becomes of it,
 //! [`hearing`] what can be made out. The same scene and seed give the same samples on every machine: all functions come
-//! from `libm`, all random numbers from [`crate::random`].
+//! from `libm`, all random numbers from `random`.
 
 pub mod ambience;
 mod babble;

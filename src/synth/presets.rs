@@ -1,4 +1,4 @@
-//! The scenes that come with the program: the files of `fixtures/scenes`, by name.
+//! The scenes that come with the program: the files of `assets/scenes`, by name.
 
 use super::scene::Scene;
 use crate::Error;
@@ -7,7 +7,7 @@ macro_rules! scenes {
     ($($name:literal),* $(,)?) => {
         /// Name and text of each scene.
         const SCENES: &[(&str, &str)] = &[
-            $(($name, include_str!(concat!("../../fixtures/scenes/", $name, ".toml")))),*
+            $(($name, include_str!(concat!("../../assets/scenes/", $name, ".toml")))),*
         ];
     };
 }

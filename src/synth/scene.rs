@@ -176,7 +176,7 @@ impl Scene {
         let scene: Self = toml::from_str(text).map_err(|e| Error::Argument {
             argument: "scene",
             got: e.to_string().trim_end().to_owned(),
-            expected: "a scene as those in fixtures/scenes",
+            expected: "a scene as those in assets/scenes",
         })?;
         scene.check()?;
         Ok(scene)

@@ -10,18 +10,21 @@ use crate::signal::fraction;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
 use crate::units::{real, samples_in};
+use crate::words::words;
 
-/// How impacts are timed, from fastest to most exact.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Timing {
-    /// The detector's own grid: a quarter of a millisecond, and free.
-    Envelope,
-    /// Where the whitened sound first reaches a fixed fraction of its peak.
-    Fraction,
-    /// Best match with the mean impact of the drop.
-    #[default]
-    Correlation,
+words! {
+    /// How impacts are timed, from fastest to most exact.
+    #[derive(Default)]
+    #[non_exhaustive]
+    pub enum Timing {
+        /// The detector's own grid: a quarter of a millisecond, and free.
+        Envelope = "envelope",
+        /// Where the whitened sound first reaches a fixed fraction of its peak.
+        Fraction = "fraction",
+        /// Best match with the mean impact of the drop.
+        #[default]
+        Correlation = "correlation",
+    }
 }
 
 /// A time with its standard error.

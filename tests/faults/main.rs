@@ -402,7 +402,7 @@ fn table() -> String {
 const INTRODUCTION: &str = "# What goes wrong, and what is then said
 
 Each row is a file or a setting that is made, and given to `bounce-audio analyze FILE --format json`, by
-`tests/faults.rs`, which fails where this table is not what came of it. Status 0: a drop was found; 1: none; 2: it could
+`tests/faults`, which fails where this table is not what came of it. Status 0: a drop was found; 1: none; 2: it could
 not be read, or an argument is wrong. With status 2 one sentence is on standard error, else the warnings of the document
 are given.
 

@@ -5,17 +5,17 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use bounce_audio::Error;
-use bounce_audio::analysis::{Listener, Settings};
+use bounce_audio::ModelChoice;
+use bounce_audio::Timing;
 use bounce_audio::audio::{self, Stream};
-use bounce_audio::fit::ladder::Choice;
 use bounce_audio::random::SplitMix64;
 use bounce_audio::report::labels::{Form, drops, read};
-use bounce_audio::report::{RecordingInfo, Report, SCHEMA_VERSION, csv, json, text};
+use bounce_audio::report::{RecordingInfo, Report, csv, json, text};
 use bounce_audio::synth::presets::preset;
 use bounce_audio::synth::render;
 use bounce_audio::synth::scene::Scene;
-use bounce_audio::timing::Timing;
 use bounce_audio::units::{Quantity, real};
+use bounce_audio::{Listener, Settings};
 
 use super::choose::one_of;
 
@@ -225,15 +225,15 @@ pub(crate) fn analyze() -> Target {
     }
 }
 
-/// `fixtures/` of this package, or beside the one that `cargo fuzz` builds.
-fn fixtures() -> PathBuf {
-    let folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
-    let mut fixtures = folders.map(|folder| folder.join("fixtures"));
-    fixtures.find(|folder| folder.is_dir()).unwrap()
+/// A folder of this package, or beside the one that `cargo fuzz` builds.
+fn folder(name: &str) -> PathBuf {
+    let above = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
+    let mut named = above.map(|folder| folder.join(name));
+    named.find(|folder| folder.is_dir()).unwrap()
 }
 
 fn compressed_files() -> Vec<Vec<u8>> {
-    let files = fs::read_dir(fixtures().join("compressed"))
+    let files = fs::read_dir(folder("fixtures").join("compressed"))
         .unwrap()
         .map(|f| f.unwrap().path());
     let no_text = |f: &PathBuf| {
@@ -251,7 +251,7 @@ fn compressed_files() -> Vec<Vec<u8>> {
 }
 
 fn variants() -> Vec<Vec<u8>> {
-    let files = fs::read_dir(fixtures().join("wav-variants"))
+    let files = fs::read_dir(folder("fixtures").join("wav-variants"))
         .unwrap()
         .map(|f| f.unwrap().path());
     let mut files: Vec<_> = files
@@ -270,7 +270,7 @@ fn variants() -> Vec<Vec<u8>> {
 /// The presets, and each again so short that it is rendered.
 fn scenes() -> Vec<Vec<u8>> {
     let names = bounce_audio::synth::presets::names();
-    let folder = fixtures().join("scenes");
+    let folder = folder("assets/scenes");
     let texts = names.map(|name| fs::read_to_string(folder.join(format!("{name}.toml"))).unwrap());
     let all = texts.flat_map(|text| {
         let short = text.lines().map(|line| match line.split(' ').next() {
@@ -330,36 +330,31 @@ fn pcm16(channels: u16, sample_rate: u32, samples: &[f32]) -> Vec<u8> {
 
 /// Settings that mostly are in range.
 fn settings(random: &mut SplitMix64) -> Settings {
-    let mut settings = Settings::default();
     let mut maybe = |low: f64, high: f64| {
         let value = low * (high / low).powf(random.uniform());
         (random.uniform() < 0.3).then_some(value)
     };
-    settings.height_m = maybe(1e-6, 1e4);
-    settings.mass_kg = maybe(1e-9, 1e6);
-    settings.diameter_m = maybe(1e-6, 1e3);
-    settings.contact_time_s = maybe(1e-9, 1.0);
-    settings.start_s = maybe(1e-6, 2.0);
-    settings.end_s = maybe(1e-3, 10.0);
-    settings.gravity_m_per_s2 = maybe(1e-3, 1e6).unwrap_or(9.81);
-    settings.height_std_m = maybe(1e-9, 1e4).unwrap_or(0.0);
-    settings.timing = *one_of(
-        random,
-        &[Timing::Envelope, Timing::Fraction, Timing::Correlation],
-    );
-    settings.model = *one_of(
-        random,
-        &[
-            Choice::Auto,
-            Choice::Constant,
-            Choice::Contact,
-            Choice::Linear,
-            Choice::Drag,
-            Choice::Speed,
-            Choice::Viscoelastic,
-        ],
-    );
-    settings
+    let settings = Settings::default()
+        .height_m(maybe(1e-6, 1e4))
+        .mass_kg(maybe(1e-9, 1e6))
+        .diameter_m(maybe(1e-6, 1e3))
+        .contact_time_s(maybe(1e-9, 1.0))
+        .start_s(maybe(1e-6, 2.0))
+        .end_s(maybe(1e-3, 10.0))
+        .gravity_m_per_s2(maybe(1e-3, 1e6).unwrap_or(9.81))
+        .height_std_m(maybe(1e-9, 1e4).unwrap_or(0.0));
+    let timings = [Timing::Envelope, Timing::Fraction, Timing::Correlation];
+    let timing = *one_of(random, &timings);
+    let models = [
+        ModelChoice::Auto,
+        ModelChoice::Constant,
+        ModelChoice::Contact,
+        ModelChoice::Linear,
+        ModelChoice::Drag,
+        ModelChoice::Speed,
+        ModelChoice::Viscoelastic,
+    ];
+    settings.timing(timing).model(*one_of(random, &models))
 }
 
 fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
@@ -371,19 +366,19 @@ fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
     while listener.push_with(|room| stream.append(&all, room))?? {}
     let ending = stream.finish()?;
     let (channel, analysis) = listener.finish()?;
-    Ok(Report {
-        schema_version: SCHEMA_VERSION,
-        file: "it".to_owned(),
-        recording: RecordingInfo {
-            sample_rate_hz,
-            channels: all.len(),
-            channel: channel + 1,
-            duration_s: ending.duration_s,
-            encoding,
-        },
-        settings: settings.info(),
+    let recording = RecordingInfo {
+        sample_rate_hz,
+        channels: all.len(),
+        channel: channel + 1,
+        duration_s: ending.duration_s,
+        encoding,
+    };
+    Ok(Report::new(
+        "it".to_owned(),
+        recording,
+        settings.clone(),
         analysis,
-    })
+    ))
 }
 
 /// All forms can be written, times are in order and in the recording, and what is given is a number.
@@ -391,7 +386,7 @@ fn check(report: &Report) {
     assert!(!text::to_text(report, text::Detail::Everything).contains("NaN"));
     assert!(!csv::to_csv(report).contains("NaN"));
     assert!(json::to_json(report).is_ok());
-    for drop in &report.analysis.drops {
+    for drop in &report.drops {
         let times: Vec<f64> = drop.impacts.iter().map(|i| i.time_s).collect();
         assert!(times.is_sorted_by(|a, b| a < b), "{times:?}");
         let within = -0.1..=report.recording.duration_s + 0.1;

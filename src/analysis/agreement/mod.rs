@@ -1,12 +1,13 @@
 //! Whether the ways to e agree, and what usually causes it where they do not.
 
 use super::Settings;
+use super::bounce::ends;
 use super::model::Modelled;
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::physics::FlightLaw;
-use crate::report::{Estimates, Warning};
+use crate::report::{Estimates, Warning, WarningCode};
 
 /// Two values disagree that differ by more than this many standard deviations of their difference: 1 in 100 by chance.
 /// The errors count as independent; the scatter that estimates share makes that cautious.
@@ -74,13 +75,13 @@ enum Cause {
 }
 
 impl Cause {
-    /// The word for programs.
-    const fn code(self) -> &'static str {
+    /// What the warning is about.
+    const fn code(self) -> WarningCode {
         match self {
-            Self::Drag => "air_drag",
-            Self::HeightTooSmall | Self::HeightTooLarge => "wrong_height",
-            Self::Unheard => "bounces_unheard",
-            Self::NotKnown => "estimates_disagree",
+            Self::Drag => WarningCode::AirDrag,
+            Self::HeightTooSmall | Self::HeightTooLarge => WarningCode::WrongHeight,
+            Self::Unheard => WarningCode::BouncesUnheard,
+            Self::NotKnown => WarningCode::EstimatesDisagree,
         }
     }
 }
@@ -114,12 +115,6 @@ impl Agreement {
                 _ => Drag::Unknown,
             },
         }))
-    }
-
-    /// The same without a total time.
-    pub(super) const fn without_end(mut self) -> Self {
-        (self.eq25, self.eq30) = (None, None);
-        self
     }
 
     /// What makes the estimates disagree; none where they agree, or where a drag that is given says why.
@@ -217,15 +212,17 @@ impl Agreement {
 /// ```
 fn without_contact(ratio: Value, timed: &[Timed], flights: &Flights, modelled: &Modelled) -> Value {
     let lengths = || (0..timed.len()).filter_map(|i| Some((i, flights.after(i)?)));
-    let (Some(contact), Some((a, first)), Some((b, last))) =
-        (modelled.contact, lengths().next(), lengths().next_back())
-    else {
+    let (Some((ball, contact)), Some((a, first)), Some((b, last))) = (
+        modelled.ball_model.zip(modelled.contact),
+        lengths().next(),
+        lengths().next_back(),
+    ) else {
         return ratio;
     };
-    if contact.value <= 0.0 || contact.value >= last || a == b {
+    if contact.value <= 0.0 || ball.contact_in_s(last) >= last || a == b {
         return ratio;
     }
-    let left = |interval_s: f64| (-contact.value / interval_s).ln_1p();
+    let left = |interval_s: f64| (-ball.contact_in_s(interval_s) / interval_s).ln_1p();
     let shift = (left(last) - left(first)) / crate::units::real(b - a);
     let value = ratio.value * shift.exp();
     let doubt = value * shift * contact.std.unwrap_or(0.0) / contact.value;
@@ -249,8 +246,8 @@ fn first(
     modelled: &Modelled,
     settings: &Settings,
 ) -> Result<Option<(Value, Value)>, Error> {
-    let corrections = modelled.corrections();
-    let ends = flights.after(0).and_then(|d| corrections.ends(d));
+    let ball = modelled.ball_model.as_ref();
+    let ends = flights.after(0).and_then(|d| ends(ball, d));
     let e = modelled
         .restitution
         .as_ref()
@@ -263,11 +260,12 @@ fn first(
     let leaving = 0.5 * gravity * ends.ln_leaving.exp();
     let value = leaving / law.fall(height_m)?.landing_speed_m_per_s;
     let std = |p: Option<crate::fit::model::Parameter>| p.and_then(|p| p.std).unwrap_or(0.0);
+    let drag_per_s2 = modelled.drag.map_or(0.0, |p| p.value);
     // d(ln e₁)/dK: what the fall loses, and what the flight after it.
     let by_drag = 0.5 * height_m / gravity + flights.after(0).unwrap_or(0.0).powi(2) / 16.0;
     let unknown = match (settings.mass_kg, settings.diameter_m) {
         (Some(_), Some(_)) => 0.0,
-        _ => corrections.drag_per_s2 * BUOYANCY_PER_DRAG.hypot(DRAG_DOUBT * by_drag),
+        _ => drag_per_s2 * BUOYANCY_PER_DRAG.hypot(DRAG_DOUBT * by_drag),
     };
     let parts = [
         ends.leaving_slope * timed[0].std_s.hypot(timed[1].std_s),
@@ -293,10 +291,9 @@ fn law(modelled: &Modelled, settings: &Settings) -> Result<FlightLaw, Error> {
     if let Some(law) = super::model::law(settings)? {
         return Ok(law);
     }
-    let gravity = settings.gravity_m_per_s2;
-    match modelled.corrections().drag_per_s2 {
-        drag if drag > 0.0 => FlightLaw::with_terminal_speed(gravity, gravity / drag.sqrt()),
-        _ => FlightLaw::without_air(gravity),
+    match &modelled.ball_model {
+        Some(ball) => Ok(*ball.flight()),
+        None => FlightLaw::without_air(settings.gravity_m_per_s2),
     }
 }
 

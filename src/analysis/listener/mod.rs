@@ -8,8 +8,8 @@ use super::Settings;
 use super::findings::Findings;
 use super::scene::{Bounds, hear};
 use crate::Error;
-use crate::detect::Detector;
 use crate::detect::quiet::Watch;
+use crate::detect::{self, Detector};
 use crate::report::Analysis;
 use crate::units::{real, samples_in};
 
@@ -34,13 +34,13 @@ const MOST_SAMPLES_PER_S: f64 = 1_536_000.0;
 /// Listens to all channels of a recording, block after block.
 ///
 /// ```
-/// use bounce_audio::analysis::{Listener, Settings};
+/// use bounce_audio::{Listener, Settings};
 ///
 /// let mut listener = Listener::new(1, 8_000.0, &Settings::default())?;
 /// for _ in 0..100 {
 ///     listener.push(&[vec![0.0_f32; 4_000]])?;
 /// }
-/// assert_eq!(listener.finish()?.1.warnings[0].code, "silence");
+/// assert_eq!(listener.finish()?.1.warnings[0].code.word(), "silence");
 /// # Ok::<(), bounce_audio::Error>(())
 /// ```
 #[derive(Debug)]
@@ -91,7 +91,7 @@ impl Listener {
             let all = "sample rate of all channels together";
             return Err(Error::argument(all, together, expected));
         }
-        let detector = Detector::new(sample_rate_hz, &settings.detect)?;
+        let detector = Detector::new(sample_rate_hz, &detect::Settings::default())?;
         let frames = |time_s: f64| samples_in(time_s, sample_rate_hz);
         let first = settings.start_s.map_or(0, frames);
         let budget = HELD_BYTES / size_of::<f32>() / channels;
@@ -185,7 +185,7 @@ impl Listener {
             self.hear(rises.from, end.min(rises.last + after), false)?;
         }
         let end_s = real(end) / self.sample_rate_hz;
-        Ok(self.findings.analysis(end_s))
+        self.findings.analysis(end_s, &self.settings)
     }
 
     /// First frame after what is held.
@@ -291,5 +291,5 @@ fn unlike(channels: usize) -> Error {
     Error::argument("channels", real(channels), expected)
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "lab"))]
 mod tests;

@@ -1,4 +1,5 @@
 use super::*;
+use crate::report::WarningCode;
 use crate::synth::presets::preset;
 use crate::synth::render;
 
@@ -91,7 +92,11 @@ fn the_first_and_the_last_samples_count() {
     let found = heard(listener(), &drop[first - 2_205..first + 100_000], 8_192);
     let times = &impacts_s(&found)[0];
     assert!((times[0] - 0.05).abs() < 1e-3, "{times:?}");
-    let codes: Vec<&str> = found.drops[0].warnings.iter().map(|w| w.code).collect();
+    let codes: Vec<&str> = found.drops[0]
+        .warnings
+        .iter()
+        .map(|w| w.code.word())
+        .collect();
     assert!(
         codes.contains(&"late_start") && codes.contains(&"cut_end"),
         "{codes:?}"
@@ -149,7 +154,7 @@ fn a_drop_longer_than_the_memory_is_torn_and_that_is_said() {
     let found = heard(short, &recording(10.0, &[1.0]), 8_192);
     assert!(!found.drops.is_empty());
     assert!(
-        found.warnings.iter().any(|w| w.code == "torn"),
+        found.warnings.iter().any(|w| w.code == WarningCode::Torn),
         "{:?}",
         found.warnings
     );

@@ -18,6 +18,7 @@ mod pages;
 mod source;
 mod stream;
 
+pub use guard::is_guarded;
 pub(super) use source::Source;
 pub(super) use stream::Stream;
 

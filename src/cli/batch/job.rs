@@ -11,7 +11,7 @@ use super::inputs::Input;
 use super::options::{Given, Pattern, Table};
 use super::plots::Plots;
 use crate::Error;
-use crate::cli::listen::{Hearing, Listening, name};
+use crate::cli::listen::{Listening, listen_to_file, name};
 use crate::report::batch::{Digest, Found};
 
 /// What differs from file to file.
@@ -68,11 +68,7 @@ impl Job<'_> {
             PerFile::Pattern(pattern) => pattern.of(path)?,
         };
         let listening = given.over(self.listening);
-        let hearing = Hearing {
-            settings: listening.settings(),
-            labels: None,
-        };
-        let report = listening.hear_file(path, &hearing)?;
+        let report = listen_to_file(path, &listening.request())?;
         if let Some(plots) = &self.plots {
             plots.draw(path, &report)?;
         }

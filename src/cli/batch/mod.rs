@@ -86,7 +86,7 @@ pub(super) struct Arguments {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    arguments.listening.settings().check()?;
+    arguments.listening.request().settings.check()?;
     let plot = arguments.plot.as_deref().map(Picture::new).transpose()?;
     let inputs = inputs::gather(&arguments.paths)?;
     let job = Job {

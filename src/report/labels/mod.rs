@@ -18,7 +18,7 @@ mod text_grid;
 pub use audacity::read as read_audacity;
 pub use impacts::{Marked, drops};
 
-use super::Analysis;
+use super::Drop;
 use crate::Error;
 
 /// Which tool labels are for.
@@ -71,10 +71,10 @@ pub struct Label {
     pub line: usize,
 }
 
-/// The impacts of all drops as labels, in order of time; the recording lasts for `duration_s`.
+/// The impacts of these drops as labels, in order of time; the recording lasts for `duration_s`.
 #[must_use]
-pub fn to_labels(analysis: &Analysis, duration_s: f64, form: Form) -> String {
-    let labels = impacts::labels(&analysis.drops);
+pub fn to_labels(drops: &[Drop], duration_s: f64, form: Form) -> String {
+    let labels = impacts::labels(drops);
     match form {
         Form::Audacity => audacity::write(&labels),
         Form::Instants => instants::write(&labels),

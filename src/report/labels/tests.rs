@@ -21,22 +21,16 @@ fn impact(time_s: f64, status: Status) -> Impact {
     }
 }
 
-fn two_drops() -> Analysis {
-    let drop = |from_s: f64| crate::report::Drop {
+fn two_drops() -> Vec<Drop> {
+    let drop = |from_s: f64| Drop {
         impacts: vec![
             impact(from_s + 1.0 / 3.0, Status::Heard),
             impact(from_s + 0.7, Status::Inferred),
             impact(from_s + 0.1_f64.sqrt() + 0.6, Status::Doubtful),
         ],
-        ..crate::report::Drop::empty()
+        ..Drop::empty()
     };
-    Analysis {
-        drops: vec![drop(1.0), drop(11.0)],
-        rejected: Vec::new(),
-        rejected_weak: 0,
-        rule: None,
-        warnings: Vec::new(),
-    }
+    vec![drop(1.0), drop(11.0)]
 }
 
 fn marked(text: &str, form: Form) -> Vec<Vec<Marked>> {
@@ -45,11 +39,11 @@ fn marked(text: &str, form: Form) -> Vec<Vec<Marked>> {
 
 #[test]
 fn what_is_written_is_read_back_to_the_last_digit() {
-    let analysis = two_drops();
+    let written = two_drops();
     for form in FORMS {
-        let back = marked(&to_labels(&analysis, 20.0, form), form);
+        let back = marked(&to_labels(&written, 20.0, form), form);
         assert_eq!(back.len(), 2, "{form:?}");
-        for (drop, back) in analysis.drops.iter().zip(&back) {
+        for (drop, back) in written.iter().zip(&back) {
             assert_eq!(drop.impacts.len(), back.len());
             for (impact, back) in drop.impacts.iter().zip(back) {
                 assert_eq!(impact.time_s, back.time_s, "{form:?}");

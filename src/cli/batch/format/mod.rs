@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 use crate::Error;
 use crate::fit::Estimate;
 use crate::report::batch::{Digest, DropDigest, Found};
-use crate::report::drops::{self, COLUMNS, status};
+use crate::report::drops::{self, COLUMNS, RowStatus};
 use crate::report::{Report, json};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -202,10 +202,10 @@ impl Rows {
             std::str::from_utf8(row.get(at)?).ok()
         };
         let (file, reason) = (text("file")?.to_owned(), text("reason")?.to_owned());
-        let found = match text("status")? {
-            status::NONE if self.drops.is_empty() => Found::Nothing(reason),
-            status::ERROR if self.drops.is_empty() => Found::Failed(reason),
-            status::DROP => {
+        let found = match RowStatus::of_word(text("status")?)? {
+            RowStatus::None if self.drops.is_empty() => Found::Nothing(reason),
+            RowStatus::Error if self.drops.is_empty() => Found::Failed(reason),
+            RowStatus::Drop => {
                 if self.drops.is_empty() {
                     self.file.clone_from(&file);
                 }
@@ -219,7 +219,7 @@ impl Rows {
                 }
                 Found::Drops(std::mem::take(&mut self.drops))
             }
-            _ => return None,
+            RowStatus::None | RowStatus::Error => return None,
         };
         self.back.add(Digest { file, found }, end);
         Some(())

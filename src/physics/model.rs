@@ -1,0 +1,317 @@
+//! The model of a ball: restitution and contact time at every speed of impact, and the flight between impacts.
+
+use super::ends::Ends;
+use super::{
+    Bounce, FlightLaw, Hop, Leaving, LinearContact, Rebound, ReleaseRule, Restitution,
+    RestitutionLaw, check,
+};
+use crate::Error;
+
+/// A ball on a surface, in air or without: everything that decides when it hits next.
+///
+/// What is fitted to a recording, judged by a rule, drawn as a line and dropped by [`DropSetup`](super::DropSetup) is this
+/// one type. All of it is exact: the linear ball by [`LinearContact`], the flight by [`FlightLaw`].
+///
+/// ```
+/// use bounce_audio::physics::{BallModel, Bounce, FlightLaw, Restitution, RestitutionLaw};
+///
+/// // e is 0.9 at 1 m/s and falls with the speed to the power of 0.05; 1 ms of contact; drag of a ping-pong ball.
+/// let restitution = RestitutionLaw::SpeedPower {
+///     restitution: Restitution::new(0.9)?,
+///     at_speed_m_per_s: 1.0,
+///     exponent: 0.05,
+/// };
+/// let flight = FlightLaw::with_drag(9.81, 1.4)?;
+/// let ball = BallModel::new(flight, Bounce::Given { restitution, contact_time_s: 1e-3 })?;
+/// let e = ball.restitution(2.0).map(|e| e.value());
+/// assert!((e.unwrap_or(0.0) - 0.9 * 2.0_f64.powf(-0.05)).abs() < 1e-15);
+/// # Ok::<(), bounce_audio::Error>(())
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BallModel {
+    flight: FlightLaw,
+    surface: Surface,
+}
+
+/// Rounds in which the contact of a linear ball settles within an interval; each leaves a hundredth or less.
+const CONTACT_ROUNDS: usize = 30;
+
+/// A bounce whose parameters were checked.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Surface {
+    Linear(LinearContact),
+    Given {
+        restitution: RestitutionLaw,
+        contact_time: f64,
+    },
+}
+
+impl BallModel {
+    /// A flight and a bounce. The weight of a linear ball is that of the flight.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a linear ball without a rebound ([`LinearContact::new`]), and naming `contact_time_s` where it
+    /// is negative or not finite.
+    pub fn new(flight: FlightLaw, bounce: Bounce) -> Result<Self, Error> {
+        let surface = match bounce {
+            Bounce::Linear { ball, release_rule } => Surface::Linear(LinearContact::new(
+                ball,
+                flight.gravity_m_per_s2(),
+                release_rule,
+            )?),
+            Bounce::Given {
+                restitution,
+                contact_time_s,
+            } => Surface::Given {
+                restitution,
+                contact_time: check::non_negative("contact_time_s", contact_time_s)?,
+            },
+        };
+        Ok(Self { flight, surface })
+    }
+
+    /// The flight between impacts.
+    #[must_use]
+    pub const fn flight(&self) -> &FlightLaw {
+        &self.flight
+    }
+
+    /// What becomes of an impact at this speed.
+    ///
+    /// With restitution and contact time as given the ball always leaves, undeformed.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] where the speed is not positive and finite, or the law of restitution leaves 0 < e < 1 at this
+    /// or a lower speed.
+    pub fn rebound(&self, speed_m_per_s: f64) -> Result<Rebound, Error> {
+        let speed = check::positive("speed_m_per_s", speed_m_per_s)?;
+        self.check_at(speed)?;
+        Ok(self.rebound_at(speed))
+    }
+
+    /// Restitution of an impact at this speed; none where the ball does not leave, or [`rebound`](Self::rebound) fails.
+    #[must_use]
+    pub fn restitution(&self, speed_m_per_s: f64) -> Option<Restitution> {
+        self.leaving(speed_m_per_s)
+            .map(|leaving| leaving.restitution)
+    }
+
+    /// Contact time of an impact at this speed, in seconds: 0 for a model without one, none as for
+    /// [`restitution`](Self::restitution).
+    #[must_use]
+    pub fn contact_time_s(&self, speed_m_per_s: f64) -> Option<f64> {
+        self.leaving(speed_m_per_s)
+            .map(|leaving| leaving.contact_time_s)
+    }
+
+    /// The times from impact to impact, in seconds, of a ball that first arrives at this speed, until it does not leave.
+    pub fn intervals(&self, speed_m_per_s: f64) -> impl Iterator<Item = f64> + '_ {
+        let mut speed = speed_m_per_s;
+        std::iter::from_fn(move || {
+            let leaving = self.leaving(speed)?;
+            let hop = self.hop_after(leaving.speed_m_per_s, -leaving.position_m)?;
+            speed = hop.landing_speed_m_per_s;
+            Some(leaving.contact_time_s + hop.time_s)
+        })
+    }
+
+    /// The contact time at the impact that begins an interval between impacts of this length, in seconds.
+    ///
+    /// That of a linear ball is longer in short intervals; it is found in rounds, for it hardly depends on the speed.
+    pub(crate) fn contact_in_s(&self, interval_s: f64) -> f64 {
+        let contact = match self.surface {
+            Surface::Given { contact_time, .. } => return contact_time,
+            Surface::Linear(contact) => contact,
+        };
+        let leaving_at = |speed: f64| match contact.rebound(speed) {
+            Ok(Rebound::Leaves(leaving)) => Some(leaving),
+            _ => None,
+        };
+        // The contact of a fast impact, without weight.
+        let mut contact_s = contact.oscillator().contact_time_s().unwrap_or(0.0);
+        let mut e = contact
+            .oscillator()
+            .restitution()
+            .map_or(1.0, Restitution::value);
+        for _ in 0..CONTACT_ROUNDS {
+            let ends = Ends::of(interval_s - contact_s, self.flight.drag_per_s2());
+            let speed = |ends: Ends| 0.5 * self.flight.gravity_m_per_s2() * ends.ln_leaving.exp();
+            let Some(leaving) = ends.and_then(|ends| leaving_at(speed(ends) / e)) else {
+                break;
+            };
+            let moved_s = (leaving.contact_time_s - contact_s).abs();
+            (contact_s, e) = (leaving.contact_time_s, leaving.restitution.value());
+            if moved_s < 1e-12 * interval_s {
+                break;
+            }
+        }
+        contact_s
+    }
+
+    /// Both ends of the flight in an interval between impacts; none where that is no longer than the contact.
+    pub(crate) fn ends(&self, interval_s: f64) -> Option<Ends> {
+        let flight_s = interval_s - self.contact_in_s(interval_s);
+        Ends::of(flight_s, self.flight.drag_per_s2())
+    }
+
+    fn leaving(&self, speed_m_per_s: f64) -> Option<Leaving> {
+        match self.rebound(speed_m_per_s).ok()? {
+            Rebound::Leaves(leaving) => Some(leaving),
+            Rebound::Stays => None,
+        }
+    }
+
+    /// Whether the model holds at this and all lower speeds.
+    pub(super) fn check_at(&self, speed: f64) -> Result<(), Error> {
+        match self.surface {
+            Surface::Linear(_) => Ok(()),
+            Surface::Given { restitution, .. } => restitution.at(speed).map(|_| ()),
+        }
+    }
+
+    /// [`rebound`](Self::rebound) at a speed that was checked.
+    pub(super) fn rebound_at(&self, speed: f64) -> Rebound {
+        match self.surface {
+            Surface::Linear(contact) => contact.rebound_at(speed),
+            Surface::Given {
+                restitution,
+                contact_time,
+            } => {
+                let restitution = restitution.at_trusted(speed);
+                Rebound::Leaves(Leaving {
+                    contact_time_s: contact_time,
+                    speed_m_per_s: restitution.rebound_speed_m_per_s(speed),
+                    position_m: 0.0,
+                    restitution,
+                    release_rule: ReleaseRule::ZeroDisplacement,
+                })
+            }
+        }
+    }
+
+    /// Whether the ball ever stops leaving.
+    pub(super) fn comes_to_rest(&self) -> bool {
+        match self.surface {
+            Surface::Linear(contact) => contact.oscillator().damping_ratio() > 0.0,
+            Surface::Given { contact_time, .. } => contact_time > 0.0,
+        }
+    }
+
+    /// Whether (19) has the ball rest that leaves at this speed: it rises no higher than its rest position (5), with (16),
+    /// lies deep. A linear ball that leaves does not rest.
+    pub(super) fn rests(&self, leaving: &Leaving, speed: f64) -> bool {
+        let Surface::Given { contact_time, .. } = self.surface else {
+            return false;
+        };
+        let frequency = leaving.restitution.pi_norm() / contact_time;
+        contact_time > 0.0
+            && self.flight.rise_at(speed).height_m
+                <= self.flight.gravity_m_per_s2() / frequency / frequency
+    }
+
+    /// The flight of a ball that leaves at this speed from so far below the surface at rest; `None` where it does not get
+    /// off the surface.
+    pub(super) fn hop_after(&self, speed: f64, depth: f64) -> Option<Hop> {
+        if depth == 0.0 {
+            return Some(self.flight.hop_at(speed));
+        }
+        let rise = self.flight.rise_at(speed);
+        let apex_m = rise.height_m - depth;
+        if apex_m <= 0.0 {
+            return None;
+        }
+        let fall = self.flight.fall_from(apex_m);
+        Some(Hop {
+            time_s: rise.time_s + fall.time_s,
+            apex_m,
+            landing_speed_m_per_s: fall.landing_speed_m_per_s,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::Oscillator;
+
+    const G: f64 = 9.81;
+
+    fn given(restitution: RestitutionLaw) -> BallModel {
+        let bounce = Bounce::Given {
+            restitution,
+            contact_time_s: 2e-3,
+        };
+        BallModel::new(FlightLaw::without_air(G).unwrap(), bounce).unwrap()
+    }
+
+    #[test]
+    fn restitution_and_contact_are_those_of_the_law() {
+        let e = Restitution::new(0.9).unwrap();
+        let constant = given(RestitutionLaw::Constant(e));
+        assert_eq!(constant.restitution(3.0), Some(e));
+        assert_eq!(constant.contact_time_s(3.0), Some(2e-3));
+        assert_eq!(constant.restitution(-1.0), None);
+        let visco = given(RestitutionLaw::Viscoelastic {
+            gamma1: 2.0,
+            gamma2: 0.0,
+        });
+        assert!(visco.restitution(1.0).is_none() && visco.restitution(0.01).is_some());
+    }
+
+    #[test]
+    fn a_linear_ball_is_the_exact_contact_and_stays_when_it_is_slow() {
+        let ball = Oscillator::from_contact(Restitution::new(0.9).unwrap(), 2e-3).unwrap();
+        let release_rule = ReleaseRule::ZeroDisplacement;
+        let contact = LinearContact::new(ball, G, release_rule).unwrap();
+        let flight = FlightLaw::without_air(G).unwrap();
+        let model = BallModel::new(flight, Bounce::Linear { ball, release_rule }).unwrap();
+        assert_eq!(model.rebound(1.0).unwrap(), contact.rebound(1.0).unwrap());
+        assert_eq!(model.restitution(1e-4), None);
+        let few = model.intervals(1.0).count();
+        assert!((10..1000).contains(&few), "{few}");
+    }
+
+    #[test]
+    fn the_ends_of_an_interval_are_those_of_the_flight_in_it() {
+        let e = Restitution::new(0.8).unwrap();
+        let contact = LinearContact::with_restitution_at(e, 1.0, 8e-3, G).unwrap();
+        let flight = FlightLaw::with_drag(G, 0.5).unwrap();
+        let bounce = Bounce::Linear {
+            ball: contact.oscillator(),
+            release_rule: ReleaseRule::ZeroDisplacement,
+        };
+        let model = BallModel::new(flight, bounce).unwrap();
+        for speed in [0.3, 0.8, 3.0] {
+            let leaving = model
+                .restitution(speed)
+                .unwrap()
+                .rebound_speed_m_per_s(speed);
+            let interval_s = model.intervals(speed).next().unwrap();
+            let contact_s = model.contact_time_s(speed).unwrap();
+            assert!((model.contact_in_s(interval_s) / contact_s - 1.0).abs() < 1e-9);
+            let found = 0.5 * G * model.ends(interval_s).unwrap().ln_leaving.exp();
+            assert!(
+                (found / leaving - 1.0).abs() < 1e-9,
+                "{speed}: {found} {leaving}"
+            );
+        }
+        assert!(model.contact_time_s(0.3).unwrap() > 1.02 * model.contact_time_s(3.0).unwrap());
+    }
+
+    #[test]
+    fn intervals_hold_contact_and_the_flight_with_drag() {
+        let e = Restitution::new(0.9).unwrap();
+        let bounce = Bounce::Given {
+            restitution: RestitutionLaw::Constant(e),
+            contact_time_s: 2e-3,
+        };
+        let flight = FlightLaw::with_drag(G, 1.2).unwrap();
+        let model = BallModel::new(flight, bounce).unwrap();
+        let hop = flight.hop(0.9 * 2.0).unwrap();
+        let next = flight.hop(0.9 * hop.landing_speed_m_per_s).unwrap();
+        let found: Vec<f64> = model.intervals(2.0).take(2).collect();
+        for (found, hop) in found.iter().zip([hop, next]) {
+            assert!((found - hop.time_s - 2e-3).abs() < 1e-15);
+        }
+    }
+}

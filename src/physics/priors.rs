@@ -1,0 +1,101 @@
+//! What is known of balls at large before one is heard: the priors of the tracker, of the fit and of what is drawn out
+//! beyond the speeds heard, in one place.
+//!
+//! Each is a convention: wide enough for every ball that is named beside it, and no wider than ten times that.
+//!
+//! | quantity | prior | balls that it has to hold |
+//! |---|---|---|
+//! | ln e | [`LN_RESTITUTION`] | e from 0.35 to 0.99 |
+//! | C, contact time | [`CONTACT_S`], [`TRACKED_CONTACT_S`] | steel 0.1 ms, ping-pong 0.68 ms (Jena, Wassin and Gibbon 2021), basketball 12 ms |
+//! | K, drag | [`DRAG_PER_S2`], [`TRACKED_DRAG_PER_S2`], [`LITTLE_DRAG_PER_S2`] | `(g/v_t)²` of [`FlightLaw::in_air`](super::FlightLaw::in_air): steel 0.02, golf 0.1, ping-pong 1.4, foam 5 s⁻² |
+//! | p, how e falls with the speed | [`SPEED_EXPONENT`], [`SPEED_EXPONENT_BEYOND`] | tennis 0.06; ¼ for plastic contact, by theory |
+//! | scatter of ln e | [`BOUNCE_STD`], [`TRACKED_BOUNCE_STD`] | ping-pong 0.005 (Erickson 2020) |
+//!
+//! The tracker, which takes all balls to be of one kind and their e to be the same at all speeds, has numbers of its own
+//! where that makes its quantity another one; each says so.
+
+/// What is known beforehand of a quantity: a normal distribution.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Known {
+    /// Its centre.
+    pub value: f64,
+    /// Its standard deviation, > 0.
+    pub std: f64,
+}
+
+impl Known {
+    /// A quantity that is given, with its relative standard error.
+    #[must_use]
+    pub const fn within(value: f64, relative_std: f64) -> Self {
+        Self {
+            value,
+            std: value * relative_std,
+        }
+    }
+}
+
+/// ln e before any flight is known: e about 0.82, with a spread that covers 0.35 to 0.99. The fit has none: three impacts
+/// say more.
+pub const LN_RESTITUTION: Known = Known {
+    value: -0.2,
+    std: 0.35,
+};
+
+/// C of balls at large, in seconds: from a steel ball's tenth of a millisecond to a basketball's twelve.
+pub const CONTACT_S: Known = Known {
+    value: 2e-3,
+    std: 6e-3,
+};
+
+/// C for the tracker, in seconds, which takes e to be the same at all speeds: of the contact of a soft ball with its weight
+/// it sees only `C = ΔT − 4ζ(1 + e)/(ω(1 − e))`, a fifth of ΔT at e = 0.9, as slow impacts lose more.
+pub const TRACKED_CONTACT_S: Known = Known {
+    value: 0.5e-3,
+    std: 1.5e-3,
+};
+
+/// Relative standard error of a contact time that is given: unless it is measured no one knows it better.
+pub const CONTACT_RELATIVE_STD: f64 = 0.05;
+
+/// K of balls that the air slows, in s⁻²: 1.4 for a ping-pong ball, 5 for a foam ball. Of a model without such a drag see
+/// [`LITTLE_DRAG_PER_S2`].
+pub const DRAG_PER_S2: Known = Known {
+    value: 1.0,
+    std: 2.0,
+};
+
+/// K for the tracker, in s⁻², of which all balls are one kind: from none to twice that of a ping-pong ball.
+pub const TRACKED_DRAG_PER_S2: Known = Known {
+    value: 0.4,
+    std: 0.8,
+};
+
+/// K where drag is no part of the model, in s⁻²: there is air all the same, 0.02 for steel, 0.1 for a golf ball. One in ten
+/// of what is thought of as such a ball has more than 0.1.
+pub const LITTLE_DRAG_PER_S2: Known = Known {
+    value: 0.0,
+    std: 0.06,
+};
+
+/// p of balls at large, `e ∝ v^(−p)`: e of a tennis ball falls by 6 % where the speed grows by the factor 2.7, that of a
+/// plastic one by 25 %.
+pub const SPEED_EXPONENT: Known = Known {
+    value: 0.05,
+    std: 0.1,
+};
+
+/// Standard deviation of p about 0 for a ball whose e was the same at all speeds heard, beyond those: smaller than that of
+/// [`SPEED_EXPONENT`], as what the drop showed speaks against a large one.
+pub const SPEED_EXPONENT_BEYOND: f64 = 0.05;
+
+/// Range of the scatter of ln e from bounce to bounce: below it no ball is known, and a bounce that differs by a third is
+/// none.
+pub const BOUNCE_STD: (f64, f64) = (1e-6, 0.3);
+
+/// Scatter of the flights about their trend for the tracker before the drop's own is learnt: twice that of a ping-pong
+/// ball.
+pub const TRACKED_BOUNCE_STD: f64 = 0.01;
+
+/// Range of the scatter that the tracker believes, which learns it from the last few bounces: a few flights may agree by
+/// chance, and what scatters more is no ball.
+pub const TRACKED_BOUNCE_STDS: (f64, f64) = (3e-3, 0.05);

@@ -1,0 +1,166 @@
+//! From a recording to its report.
+
+use std::ops::Range;
+use std::path::Path;
+
+use crate::Error;
+use crate::analysis::{Listener, Settings, analyze_labelled};
+use crate::audio::{Ending, Stream};
+use crate::report::labels::Marked;
+use crate::report::{Analysis, RecordingInfo, Report, Warning, WarningCode};
+use crate::rules::{Rule, judge};
+
+/// Which channel is listened to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Channel {
+    /// The one in which impacts stand out most.
+    #[default]
+    Best,
+    /// The one with this number, from 1.
+    Number(usize),
+}
+
+impl Channel {
+    /// The indices of the channels that are listened to, of this many.
+    fn of(self, channels: usize) -> Result<Range<usize>, Error> {
+        match self {
+            Self::Best => Ok(0..channels),
+            Self::Number(number) if (1..=channels).contains(&number) => Ok(number - 1..number),
+            Self::Number(number) => Err(Error::Argument {
+                argument: "--channel",
+                got: format!("{number} of a recording with {channels}"),
+                expected: "best or the number of a channel, from 1",
+            }),
+        }
+    }
+}
+
+/// What is asked of a recording.
+#[derive(Debug, Default)]
+pub(crate) struct Request<'a> {
+    /// How to listen.
+    pub settings: Settings,
+    /// To what.
+    pub channel: Channel,
+    /// A file of labels and the impacts of each drop in it, which are fitted in place of those heard.
+    pub labels: Option<(&'a Path, Vec<Vec<Marked>>)>,
+    /// The rule to judge by.
+    pub rule: Option<Rule>,
+}
+
+/// Listens to a stream to its end.
+///
+/// ```no_run
+/// use std::path::Path;
+/// use bounce_audio::{Settings, audio::Stream, recording::{Channel, listen}};
+///
+/// let stream = Stream::open_file(Path::new("drop.wav"))?;
+/// let report = listen(stream, "drop.wav", Channel::Best, &Settings::default().height_m(0.305))?;
+/// println!("{} drops", report.drops.len());
+/// # Ok::<(), bounce_audio::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::Argument`] for a setting out of range or a channel that is not there, [`Error::Wav`] if there is no audio,
+/// [`Error::Io`] if reading fails.
+pub fn listen(
+    stream: Stream<'_>,
+    name: &str,
+    channel: Channel,
+    settings: &Settings,
+) -> Result<Report, Error> {
+    let request = Request {
+        settings: settings.clone(),
+        channel,
+        ..Request::default()
+    };
+    request.listen(stream, name)
+}
+
+impl Request<'_> {
+    /// The report of a stream, which is read to its end.
+    pub(crate) fn listen(&self, stream: Stream<'_>, name: &str) -> Result<Report, Error> {
+        let settings = self.settings();
+        let channels = stream.channels();
+        let heard = self.channel.of(channels)?;
+        let sample_rate_hz = f64::from(stream.sample_rate_hz());
+        let (encoding, lossy) = (stream.encoding(), stream.is_lossy());
+        let (channel, mut analysis, ending) = match &self.labels {
+            None => search(stream, &heard, &settings)?,
+            Some((path, drops)) => fit(stream, &heard, &settings, drops, path)?,
+        };
+        for drop in &mut analysis.drops {
+            drop.channel += heard.start;
+        }
+        let repairs = ending.warnings.into_iter();
+        let repairs = repairs.map(|message| Warning::new(WarningCode::Repaired, message));
+        analysis.warnings.extend(repairs);
+        analysis.warnings.extend(lossy.then(|| of_lossy(&encoding)));
+        let judged = self.rule.map(|rule| {
+            let ball = rule.ball(settings.mass_kg, settings.diameter_m);
+            judge(&rule, &analysis.drops, ball, settings.gravity_m_per_s2)
+        });
+        let recording = RecordingInfo {
+            sample_rate_hz,
+            channels,
+            channel: heard.start + channel + 1,
+            duration_s: ending.duration_s,
+            encoding,
+        };
+        let report = Report::new(name.to_owned(), recording, settings, analysis);
+        Ok(report.with_rule(judged.transpose()?))
+    }
+
+    /// The settings, with what the rule says of the ball where they do not.
+    fn settings(&self) -> Settings {
+        let mut settings = self.settings.clone();
+        if let Some(rule) = &self.rule {
+            let ball = rule.ball(settings.mass_kg, settings.diameter_m);
+            settings.mass_kg = Some(ball.mass_kg);
+            settings.diameter_m = Some(ball.diameter_m);
+        }
+        settings
+    }
+}
+
+/// The drops of a stream, the index of the channel that most were heard on among those heard, and how the stream ended.
+type Heard = (usize, Analysis, Ending);
+
+fn search(
+    mut stream: Stream<'_>,
+    heard: &Range<usize>,
+    settings: &Settings,
+) -> Result<Heard, Error> {
+    let rate = f64::from(stream.sample_rate_hz());
+    let mut listener = Listener::new(heard.len(), rate, settings)?;
+    while listener.push_with(|room| stream.append(heard, room))?? {}
+    // A file without audio is no WAV to listen to: that comes before what was not found in it.
+    let ending = stream.finish()?;
+    let (channel, analysis) = listener.finish()?;
+    Ok((channel, analysis, ending))
+}
+
+fn fit(
+    mut stream: Stream<'_>,
+    heard: &Range<usize>,
+    settings: &Settings,
+    drops: &[Vec<Marked>],
+    labels: &Path,
+) -> Result<Heard, Error> {
+    let rate = f64::from(stream.sample_rate_hz());
+    let mut samples = vec![Vec::new(); heard.len()];
+    while stream.append(heard, &mut samples)? {}
+    let ending = stream.finish()?;
+    let fitted = analyze_labelled(&samples, rate, drops, settings);
+    let (channel, analysis) = fitted.map_err(|e| e.in_file(labels))?;
+    Ok((channel, analysis, ending))
+}
+
+/// What compression costs; `docs/compressed.md` has the figures.
+fn of_lossy(encoding: &str) -> Warning {
+    let message = format!(
+        "the recording is compressed with loss ({encoding}), which may move an impact by 0.01 ms, by 2 ms where there is \
+         noise, and swallow faint ones: e may be off by more than its error says. Record WAV, FLAC or ALAC"
+    );
+    Warning::new(WarningCode::Lossy, message)
+}

@@ -1,0 +1,103 @@
+//! What a user should know: a word for programs and a sentence for people.
+
+use serde::{Deserialize, Serialize};
+
+use crate::words::words;
+
+/// Something the user should know, and what to do about it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct Warning {
+    /// Which it is.
+    pub code: WarningCode,
+    /// A sentence for people.
+    pub message: String,
+}
+
+impl Warning {
+    /// A warning.
+    #[must_use]
+    pub fn new(code: WarningCode, message: impl Into<String>) -> Self {
+        Self {
+            code,
+            message: message.into(),
+        }
+    }
+}
+
+words! {
+    /// What a warning is about.
+    #[non_exhaustive]
+    pub enum WarningCode {
+        /// There is no sound in the recording.
+        Silence = "silence",
+        /// There are sounds, but no drop.
+        NoDrop = "no_drop",
+        /// There are more drops than fit the memory.
+        LeftOut = "left_out",
+        /// A drop lasts longer than what is held in memory, and stands in two parts.
+        Torn = "torn",
+        /// The recording was repaired before it was listened to.
+        Repaired = "repaired",
+        /// The recording is compressed with loss.
+        Lossy = "lossy",
+        /// The impacts are those of labels.
+        ImpactsGiven = "impacts_given",
+        /// Few flights tell the trend of e from chance badly.
+        FewImpacts = "few_impacts",
+        /// Impacts were not heard but inferred.
+        Inferred = "inferred",
+        /// Impacts may be chance.
+        Doubtful = "doubtful",
+        /// Impacts reach full scale.
+        Clipped = "clipped",
+        /// Impacts before the recording may be missing.
+        LateStart = "late_start",
+        /// The recording ends before the ball rests.
+        CutEnd = "cut_end",
+        /// The impacts end before the ball would rest.
+        EndedEarly = "ended_early",
+        /// The first impact is missing, or the height is wrong.
+        FirstImpactMissing = "first_impact_missing",
+        /// The first flight is longer than the height allows.
+        HeightTooSmall = "height_too_small",
+        /// No e gives the total time.
+        NoRoot = "no_root",
+        /// The contact time that was given does not fit between impacts.
+        ContactTooLong = "contact_too_long",
+        /// A rebound is unlike the others.
+        WildBounce = "wild_bounce",
+        /// A time fits none of its neighbours.
+        StrayTime = "stray_time",
+        /// Another model explains the flights as well.
+        ModelsAlike = "models_alike",
+        /// The estimates of e disagree as the drag of the air makes them.
+        AirDrag = "air_drag",
+        /// They disagree as a wrong height makes them.
+        WrongHeight = "wrong_height",
+        /// They disagree as last bounces that were not heard make them.
+        BouncesUnheard = "bounces_unheard",
+        /// They disagree in another way.
+        EstimatesDisagree = "estimates_disagree",
+        /// With its weight the ball rests earlier than by (19).
+        RestIsEarlier = "rest_is_earlier",
+        /// (20) and (25) take the ball to rest after the last bounce heard.
+        RestIsAssumed = "rest_is_assumed",
+        /// ΔT by (20) moves much with e.
+        ContactTimeIllConditioned = "contact_time_ill_conditioned",
+        /// ΔT is known to its order only.
+        ContactTimeUncertain = "contact_time_uncertain",
+        /// The contact time that was given does not fit the bounces.
+        ContactTimeDoesNotFit = "contact_time_does_not_fit",
+        /// The contact time that was given and that of (20) differ.
+        ContactTimesDisagree = "contact_times_disagree",
+        /// More bounces than were heard may have been.
+        BouncesAreALowerBound = "bounces_are_a_lower_bound",
+        /// (30) is rough beside (25).
+        Eq30IsRough = "eq30_is_rough",
+        /// The drag of the air is left out.
+        DragIsLeftOut = "drag_is_left_out",
+        /// k and c belong to a rule of release.
+        ReleaseRule = "release_rule",
+    }
+}

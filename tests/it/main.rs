@@ -1,0 +1,36 @@
+//! The tests that need nothing of their own, linked once.
+#![allow(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::cast_precision_loss,
+    reason = "a failing test should panic; test sizes are small"
+)]
+
+#[path = "../common/mod.rs"]
+mod common;
+
+mod batch;
+mod cli;
+mod cli_pictures;
+mod cli_suite;
+mod compressed;
+mod examples;
+mod first_minute;
+mod labels;
+mod licences;
+mod limits;
+mod paper_figures;
+mod physics_contact;
+mod physics_input;
+mod physics_oracle;
+mod physics_paper;
+mod physics_properties;
+mod physics_uncertainty;
+mod pictures;
+mod plot;
+mod solve;
+mod synth;
+mod synthetic;
+mod wav_variants;
+mod writing;
