@@ -155,7 +155,7 @@ fn joined(
         .copied()
         .collect();
     Some(Chain {
-        evidence: chain.evidence.max(end.evidence),
+        evidence: links.iter().map(|l| l.gain).sum(),
         links,
         rejected,
     })

@@ -59,7 +59,7 @@ pub fn candidates(
         .map(|(position, z)| Candidate {
             time_s: (onset + position) / rate,
             jitter_s: (JITTER_S / z).max(LEAST_JITTER_S),
-            strength: z,
+            strength: 0.5 * z * z,
         })
         .collect();
     found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));

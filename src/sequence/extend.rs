@@ -19,7 +19,7 @@ const GROWTH: f64 = 1.03;
 /// No flight is shorter than this share of the one before.
 const SHRINKAGE: f64 = 0.2;
 /// Spread of ln strength from one impact to the next; the detector's strengths vary by a factor of two.
-const LOUDNESS_SPREAD: f64 = 0.7;
+const LOUDNESS_SPREAD: f64 = 1.0;
 /// Share of the newest impact in the mean loudness.
 const NEWEST_SHARE: f64 = 0.3;
 /// An impact is sought at most this share of a flight from where it is expected, however little is known.

@@ -41,10 +41,7 @@ pub struct Doubt {
 /// ρ, κ = K/8 and C before any flight is known.
 const PRIOR: [Known; STATES] = [
     LN_RESTITUTION,
-    Known {
-        value: TRACKED_DRAG_PER_S2.value / 8.0,
-        std: TRACKED_DRAG_PER_S2.std / 8.0,
-    },
+    TRACKED_DRAG_PER_S2.times(1.0 / 8.0),
     TRACKED_CONTACT_S,
 ];
 /// How much ln e wanders from one bounce to the next.
