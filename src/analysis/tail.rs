@@ -56,10 +56,8 @@ pub(super) fn follow<'a>(
     let found = template.and_then(|t| matched::candidates(&sound, &t, shortest_s, inside_s));
     let longer = found.and_then(|found| {
         let late = stretch.events(&found);
-        let end = HEARD_OFF_S.iter().find_map(|&off_s| {
-            let known = known(&chain, stretch.start_s, &onsets, off_s);
-            sequence::follow_again(&late, &known, settings)
-        })?;
+        let known = known(&chain, stretch.start_s, &onsets);
+        let end = sequence::follow_again(&late, &known, settings)?;
         joined(&chain, first, &end, late, events)
     });
     let (chain, timed) = match longer {
@@ -73,21 +71,20 @@ pub(super) fn follow<'a>(
     }
 }
 
-/// A heard impact is this near its match, in seconds. The second holds for soft balls, where no match is as near as the
-/// first: their slow impacts last longer than the fast ones that the sound was learnt from, and so match late.
-const HEARD_OFF_S: [f64; 2] = [0.4e-3, 1e-3];
+/// A heard impact is this near its match, in seconds.
+const HEARD_OFF_S: f64 = 0.4e-3;
 /// An inferred impact is off by this share of its flight.
 const INFERRED_OFF: f64 = 0.02;
 
 /// The times of all impacts of a chain, those heard refined, and how far off they may be.
-fn known(chain: &Chain, start_s: f64, onsets: &[f64], heard_off_s: f64) -> Vec<(f64, f64)> {
+fn known(chain: &Chain, start_s: f64, onsets: &[f64]) -> Vec<(f64, f64)> {
     let mut onsets = onsets.iter();
     let mut last_s = f64::NEG_INFINITY;
     let times = chain.links.iter().map(|link| {
         let off_s = (INFERRED_OFF * (link.time_s - last_s)).min(INFERRED_OFF);
         last_s = link.time_s;
         match link.event.and_then(|_| onsets.next()) {
-            Some(onset) => (start_s + onset, heard_off_s),
+            Some(onset) => (start_s + onset, HEARD_OFF_S),
             None => (link.time_s, off_s),
         }
     });

@@ -54,8 +54,8 @@ pub struct Candidate {
     /// How far off the time may be, in seconds (one standard deviation): a quarter of a millisecond for a click, a
     /// millisecond or two for a thud.
     pub jitter_s: f64,
-    /// Evidence that something struck: a log-likelihood ratio in nats summed over bands, or the size of a match in
-    /// standard deviations.
+    /// Evidence that something struck, in nats: the log-likelihood ratio of a rise in energy, summed over bands, or of a match
+    /// of z standard deviations, z²/2.
     pub strength: f64,
 }
 

@@ -23,8 +23,8 @@ pub struct Link {
     pub doubtful: bool,
 }
 
-/// An impact is doubtful where chance would offer its like this often within the reach of its match.
-const DOUBTFUL_CHANCE: f64 = 0.2;
+/// An impact is doubtful where chance offers this many events as strong in a flight.
+const DOUBTFUL_PER_FLIGHT: f64 = 10.0 / 3.0;
 
 /// A drop: one impact after another.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,7 +83,7 @@ const LEAST_SHRINKAGE: f64 = 0.9;
 /// The longest flight of a drop is at least this, in seconds: pulses of a voice are nearer together.
 const LEAST_FLIGHT_S: f64 = 0.025;
 /// No ball keeps more than this share of its speed at every bounce.
-pub(super) const GREATEST_RATIO: f64 = 0.985;
+const GREATEST_RATIO: f64 = 0.985;
 
 /// Finds the drops among events in order of time.
 #[must_use]
@@ -146,20 +146,13 @@ fn disjoint(events: &[Event], left: &[usize], known: &[Chain], settings: &Settin
 /// neighbouring impacts have events.
 #[must_use]
 pub fn follow_again(
-    mut events: &[Event],
+    events: &[Event],
     impacts_s: &[(f64, f64)],
     settings: &Settings,
 ) -> Option<Chain> {
-    loop {
-        let clutter = Clutter::new(events);
-        let scene = Scene::new(events, &clutter, settings);
-        let chain = follow_known(&scene, impacts_s)?;
-        // Where only a sound comes back again and again the ball lies still: what was followed there led astray before.
-        match reasons::returning_from(&scene, &chain) {
-            Some(first) => events = &events[..first],
-            None => return Some(chain),
-        }
-    }
+    let clutter = Clutter::new(events);
+    let scene = Scene::new(events, &clutter, settings);
+    follow_known(&scene, impacts_s)
 }
 
 fn follow_known(scene: &Scene<'_>, impacts_s: &[(f64, f64)]) -> Option<Chain> {
@@ -243,7 +236,7 @@ fn links(steps: &[Step]) -> Vec<Link> {
             time_s: s.time_s,
             jitter_s: s.jitter_s,
             gain: s.gain,
-            doubtful: s.chance > DOUBTFUL_CHANCE,
+            doubtful: s.chance > DOUBTFUL_PER_FLIGHT,
         })
         .collect();
     let heard: Vec<usize> = (0..links.len())

@@ -16,9 +16,7 @@ const FAINT: f64 = 10.0;
 const LONGEST_SILENCE: usize = 2;
 /// No flight is longer than the one before, up to scatter.
 const GROWTH: f64 = 1.03;
-/// No flight is shorter than this share of the one before.
-const SHRINKAGE: f64 = 0.2;
-/// Spread of ln strength from one impact to the next; the detector's strengths vary by a factor of two.
+/// Spread of ln strength from one impact to the next: strengths vary by a factor of two to four.
 const LOUDNESS_SPREAD: f64 = 1.0;
 /// Share of the newest impact in the mean loudness.
 const NEWEST_SHARE: f64 = 0.3;
@@ -142,7 +140,7 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
                 jitter_s: 0.0,
                 gain: -from.silence_cost(),
                 ln_rate: 0.0,
-                chance: 1.0,
+                chance: f64::INFINITY,
             };
             next.push(self.after(child, step));
         }
@@ -156,7 +154,7 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         let (earlier, later) = self.in_order(from, flight);
         let ratio = later / earlier;
         let flights = settings.shortest_flight_s..settings.longest_flight_s;
-        if !((SHRINKAGE..GROWTH).contains(&ratio) && flights.contains(&flight)) {
+        if !(ratio < GROWTH && flights.contains(&flight)) {
             return None;
         }
         let doubt = Doubt {

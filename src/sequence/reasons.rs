@@ -1,6 +1,6 @@
 //! Why an event is no impact of a drop.
 
-use super::drops::{Chain, Found, GREATEST_RATIO, reject};
+use super::drops::{Chain, Found, reject};
 use super::track::Scene;
 use crate::statistics::upper_median;
 use crate::units::real;
@@ -42,49 +42,30 @@ const LONGEST_DELAY_S: f64 = 0.1;
 const ECHO_SHARE: f64 = 0.3;
 /// Nearer to an impact than this, an event belongs to its sound.
 const NEAR_S: f64 = 5e-3;
-/// Fewest flights that show whether they shrink.
-const RETURNS: usize = 4;
 /// How many events outside the drops are named, the strongest; the rest is counted.
 const NAMED: usize = 50;
 /// A drop's rejected events are named from this share of its impacts' median strength on.
 const NOTABLE_SHARE: f64 = 0.3;
 
-/// A sound follows an impact at one delay within this share of the flight, up to this many seconds: an echo that grows
-/// slowly is found anywhere in its rise.
-const FOLLOWS_SHARE: f64 = 0.1;
-const FOLLOWS_S: f64 = 3e-3;
-
 /// Whether a chain is the echo of another, or the same again: more than half of its impacts follow one of the other's at
 /// the same delay.
 #[must_use]
 pub fn is_echo_of(chain: &Chain, direct: &Chain) -> bool {
-    let mut delays: Vec<(f64, f64)> = chain
-        .links
-        .iter()
+    let delays = chain.links.iter();
+    let delays: Vec<f64> = delays
         .filter_map(|l| delay_after(direct, l.time_s))
         .collect();
-    if 2 * delays.len() < chain.links.len() {
+    let Some(median) = upper_median(delays.iter().copied()) else {
         return false;
-    }
-    delays.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let median = delays[delays.len() / 2].0;
-    let same = |&&(delay, flight): &&(f64, f64)| {
-        let tolerance = (FOLLOWS_SHARE * flight).clamp(DELAY_TOLERANCE_S, FOLLOWS_S);
-        (delay - median).abs() < tolerance
     };
+    let same = |delay: &&f64| (**delay - median).abs() < DELAY_TOLERANCE_S;
     median < LONGEST_DELAY_S && 2 * delays.iter().filter(same).count() > chain.links.len()
 }
 
-/// Seconds from the impact of a chain before a time, or just after it, and that impact's flight.
-fn delay_after(chain: &Chain, time_s: f64) -> Option<(f64, f64)> {
+/// Seconds from the impact of a chain before a time, or just after it.
+fn delay_after(chain: &Chain, time_s: f64) -> Option<f64> {
     let before = chain.links.partition_point(|d| d.time_s <= time_s + NEAR_S);
-    let from = before.checked_sub(1)?;
-    let delay = time_s - chain.links[from].time_s;
-    let flight = chain
-        .links
-        .get(before)
-        .map_or(delay, |next| next.time_s - chain.links[from].time_s);
-    Some((delay, flight))
+    Some(time_s - chain.links[before.checked_sub(1)?].time_s)
 }
 
 /// Which events a chain explains, in order: its impacts and their echoes.
@@ -104,28 +85,6 @@ pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
     explained.sort_unstable();
     explained.dedup();
     explained
-}
-
-/// The event from which on a chain only follows one sound that comes back again and again: its last flights all last as
-/// long as an echo takes, and do not shrink as those of a ball do.
-#[must_use]
-pub fn returning_from(scene: &Scene<'_>, chain: &Chain) -> Option<usize> {
-    let (_, echoes) = own_echoes(scene, chain);
-    let flights = chain.links.windows(2).map(|w| w[1].time_s - w[0].time_s);
-    let flights: Vec<f64> = flights.collect();
-    let same = |delay: f64| {
-        let last = flights.iter().rev();
-        last.take_while(|f| (*f - delay).abs() < DELAY_TOLERANCE_S)
-            .count()
-    };
-    let count = echoes.into_iter().map(same).max()?;
-    let (first, last) = (*flights.get(flights.len() - count)?, *flights.last()?);
-    let shrink = last < GREATEST_RATIO.powf(real(count - 1)) * first;
-    if count < RETURNS || shrink {
-        return None;
-    }
-    let after = chain.links.len() - count;
-    chain.links[after..].iter().find_map(|l| l.event)
 }
 
 /// Which events the sound of a chain accounts for: what it explains, and what is near one of its impacts and weaker.

@@ -64,12 +64,9 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// A share of a flight within which an event would be taken for the impact, both ways together.
-const MATCH_WIDTH: f64 = 0.06;
-
-/// How many events chance would offer at a rate within a few hundredths of a flight.
+/// How many events chance would offer in a flight.
 pub(super) fn chance(ln_rate_per_s: f64, flight_s: f64) -> f64 {
-    ln_rate_per_s.exp() * MATCH_WIDTH * flight_s
+    ln_rate_per_s.exp() * flight_s
 }
 
 /// One impact of a chain: an event, or a time at which one is inferred.
@@ -85,7 +82,7 @@ pub struct Step {
     pub gain: f64,
     /// … among clutter of this rate: ln of events per second; 0 where the impact is inferred.
     pub ln_rate: f64,
-    /// How many events as strong chance would offer near it: within a few hundredths of its flight.
+    /// How many events as strong chance would offer in its flight.
     pub chance: f64,
 }
 
