@@ -17,7 +17,9 @@ const LONGEST_SILENCE: usize = 2;
 /// No flight is longer than the one before, up to scatter.
 const GROWTH: f64 = 1.03;
 /// Spread of ln strength from one impact to the next: strengths vary by a factor of two to four.
-const LOUDNESS_SPREAD: f64 = 1.0;
+const LOUDNESS_SPREAD: f64 = 1.2;
+/// The power of the speed that strength goes with, in nats: 2 for a match, less for a rise of energy.
+const FADING: f64 = 1.5;
 /// Share of the newest impact in the mean loudness.
 const NEWEST_SHARE: f64 = 0.3;
 /// An impact is sought at most this share of a flight from where it is expected, however little is known.
@@ -165,9 +167,9 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         // The density is of ln T; per second it is divided by T.
         let density = expected.ln_density(ratio.ln() - expected.mean) - flight.ln();
         // Loudness is not monotone, but an impact much fainter than those around it is more likely to be something else.
-        // A slower impact is fainter by its speed.
+        // A slower impact is fainter: the nats of a match go with the square of the speed, those of a rise with its logarithm.
         let slower = match self.way {
-            Way::Forward => ratio.ln(),
+            Way::Forward => FADING * ratio.ln(),
             Way::Backward => 0.0,
         };
         let expected_loudness = from.loudness + slower;
