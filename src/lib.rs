@@ -99,6 +99,10 @@ pub mod evaluate;
 #[cfg(all(feature = "lab", not(feature = "internals")))]
 mod evaluate;
 #[cfg(feature = "internals")]
+pub mod event;
+#[cfg(not(feature = "internals"))]
+mod event;
+#[cfg(feature = "internals")]
 pub mod fit;
 #[cfg(not(feature = "internals"))]
 mod fit;

@@ -9,20 +9,24 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// All of src, from the bottom up, and what each may name: only what stands above its own line.
-const MAY_NAME: [(&str, &[&str]); 25] = [
+const MAY_NAME: [(&str, &[&str]); 26] = [
     ("error.rs", &[]),
     ("words.rs", &[]),
     ("units.rs", &[]),
     ("random.rs", &[]),
+    ("event.rs", &[]),
     ("linalg.rs", &["units"]),
     ("statistics.rs", &["units"]),
     ("physics", &["units", "random", "words"]),
     ("signal", &["units", "statistics", "linalg"]),
     (
         "detect",
-        &["units", "random", "statistics", "linalg", "signal"],
+        &["units", "random", "statistics", "event", "linalg", "signal"],
     ),
-    ("sequence", &["units", "statistics", "linalg", "physics"]),
+    (
+        "sequence",
+        &["units", "statistics", "event", "linalg", "physics"],
+    ),
     (
         "timing",
         &["units", "random", "statistics", "linalg", "words", "signal"],
@@ -43,6 +47,7 @@ const MAY_NAME: [(&str, &[&str]); 25] = [
             "units",
             "random",
             "statistics",
+            "event",
             "physics",
             "signal",
             "detect",

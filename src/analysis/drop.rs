@@ -3,8 +3,9 @@
 use super::agreement::Agreement;
 use super::bounce::{bounce, rebound_height_std_m};
 use super::model::Modelled;
+use super::stretch::Stretch;
 use super::tail::Followed;
-use super::{Settings, Stretch, model, rejected, warnings};
+use super::{Settings, model, rejected, warnings};
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
@@ -176,7 +177,7 @@ fn times(stretch: &Stretch<'_>, followed: &Followed<'_>, settings: &Settings) ->
         .iter()
         .map(|link| match link.event.and_then(|_| refined.next()) {
             Some(t) => Timed {
-                time_s: stretch.start_s + t.time_s,
+                time_s: t.time_s,
                 std_s: t.std_s,
                 heard: true,
             },
@@ -251,7 +252,9 @@ const LOUDEST_WITHIN_S: (f64, f64) = (0.5e-3, 4e-3);
 
 /// Peak of the samples of an impact in dB below full scale; none in silence.
 fn level_db(stretch: &Stretch<'_>, time_s: f64) -> Option<f64> {
-    let sound = stretch.between(time_s - LOUDEST_WITHIN_S.0, time_s + LOUDEST_WITHIN_S.1);
+    let sound = stretch
+        .sound
+        .between(time_s - LOUDEST_WITHIN_S.0, time_s + LOUDEST_WITHIN_S.1);
     let peak = sound.iter().map(|x| x.abs()).fold(0.0, f32::max);
     (peak > 0.0).then(|| 20.0 * f64::from(peak).log10())
 }

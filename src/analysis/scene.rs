@@ -1,12 +1,15 @@
 //! A stretch of sound in which something happens: which channel hears it best, and the drops in it.
 
 use super::drop::{self, Measured};
+use super::stretch::Stretch;
 use super::tail::{self, Followed};
-use super::{Settings, Stretch, rejected};
+use super::{Settings, rejected};
 use crate::Error;
-use crate::detect::{self, Candidate, Detector, clarity};
+use crate::detect::{Detector, clarity};
+use crate::event::Event;
 use crate::report::Rejected;
-use crate::sequence::{self, Chain, Event, Found, is_echo_of};
+use crate::sequence::{self, Chain, Found, is_echo_of};
+use crate::signal::sound::Sound;
 use crate::units::real;
 
 /// Where a scene is in its recording.
@@ -51,18 +54,21 @@ pub(super) fn hear(
     detector: &Detector,
     settings: &Settings,
 ) -> Result<Heard, Error> {
-    let candidates: Vec<Vec<Candidate>> = channels.iter().map(|c| detector.candidates(c)).collect();
-    let clarities: Vec<f64> = candidates.iter().map(|c| clarity(c)).collect();
-    let channel = clearest(&clarities);
     let rate = detector.sample_rate_hz();
-    let stretch = Stretch {
+    let sound = |channel: usize| Sound {
         samples: channels[channel],
         sample_rate_hz: rate,
         start_s: real(bounds.first) / rate,
-        listened_from_s: real(bounds.listened_from) / rate,
-        hop_s: detect::Settings::default().hop_s,
     };
-    let events = stretch.events(&candidates[channel]);
+    let heard = (0..channels.len()).map(|channel| detector.events(&sound(channel)));
+    let mut heard: Vec<Vec<Event>> = heard.collect();
+    let clarities: Vec<f64> = heard.iter().map(|events| clarity(events)).collect();
+    let channel = clearest(&clarities);
+    let stretch = Stretch {
+        sound: sound(channel),
+        listened_from_s: real(bounds.listened_from) / rate,
+    };
+    let events = heard.swap_remove(channel);
     let balls = sequence::Settings::default();
     let found = sequence::find(&events, &balls);
     let edge = Edge::of(&stretch, bounds.cut, &found);
@@ -126,9 +132,9 @@ const LEAD_S: f64 = 1.0;
 
 impl Edge {
     fn of(stretch: &Stretch<'_>, cut: bool, found: &Found) -> Self {
-        let end_s = stretch.end_s();
+        let end_s = stretch.sound.end_s();
         let mut edge = Self {
-            oldest_s: 0.5 * (stretch.start_s + end_s),
+            oldest_s: 0.5 * (stretch.sound.start_s + end_s),
             end_s,
             settled_s: f64::INFINITY,
             torn: 0,

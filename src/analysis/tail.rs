@@ -3,9 +3,10 @@
 //! The energy no longer rises where the last impact still rings. So once a chain is known, the late part of it is
 //! searched again for the sound of its impacts, and the chain is followed there anew by the same physics.
 
-use super::Stretch;
+use super::stretch::Stretch;
 use crate::detect::matched;
-use crate::sequence::{self, Chain, Event};
+use crate::event::Event;
+use crate::sequence::{self, Chain};
 use crate::signal::whiten::Whitened;
 use crate::timing::{Refined, Timed, Timing};
 
@@ -28,7 +29,7 @@ pub(super) struct Followed<'a> {
     pub chain: Chain,
     /// The sound that it is timed in, whitened by the noise around the chain as it was first.
     pub sound: Whitened<'a>,
-    /// Its heard impacts by correlation, in seconds of the stretch: the end was followed from there, and it is the same
+    /// Its heard impacts by correlation: the end was followed from there, and it is the same
     /// chain as before. None where it grew, or there was no end to follow.
     pub timed: Option<Vec<Timed>>,
 }
@@ -41,7 +42,7 @@ pub(super) fn follow<'a>(
     settings: &sequence::Settings,
 ) -> Followed<'a> {
     let sound = stretch.whitened(&chain);
-    let Some((first, region_s)) = region(&chain, stretch.end_s()) else {
+    let Some((first, region_s)) = region(&chain, stretch.sound.end_s()) else {
         return Followed {
             chain,
             sound,
@@ -50,14 +51,11 @@ pub(super) fn follow<'a>(
     };
     let Refined { times, template } = stretch.timed(&chain, &sound, Timing::Correlation);
     let onsets: Vec<f64> = times.iter().map(|t| t.time_s).collect();
-    let inside_s = (region_s.0 - stretch.start_s, region_s.1 - stretch.start_s);
     let flights = onsets.windows(2).map(|w| w[1] - w[0]);
     let shortest_s = flights.fold(f64::INFINITY, f64::min);
-    let found = template.and_then(|t| matched::candidates(&sound, &t, shortest_s, inside_s));
-    let longer = found.and_then(|found| {
-        let late = stretch.events(&found);
-        let known = known(&chain, stretch.start_s, &onsets);
-        let end = sequence::follow_again(&late, &known, settings)?;
+    let found = template.and_then(|t| matched::events(&sound, &t, shortest_s, region_s));
+    let longer = found.and_then(|late| {
+        let end = sequence::follow_again(&late, &known(&chain, &onsets), settings)?;
         joined(&chain, first, &end, late, events)
     });
     let (chain, timed) = match longer {
@@ -77,14 +75,14 @@ const HEARD_OFF_S: f64 = 0.4e-3;
 const INFERRED_OFF: f64 = 0.02;
 
 /// The times of all impacts of a chain, those heard refined, and how far off they may be.
-fn known(chain: &Chain, start_s: f64, onsets: &[f64]) -> Vec<(f64, f64)> {
+fn known(chain: &Chain, onsets: &[f64]) -> Vec<(f64, f64)> {
     let mut onsets = onsets.iter();
     let mut last_s = f64::NEG_INFINITY;
     let times = chain.links.iter().map(|link| {
         let off_s = (INFERRED_OFF * (link.time_s - last_s)).min(INFERRED_OFF);
         last_s = link.time_s;
         match link.event.and_then(|_| onsets.next()) {
-            Some(onset) => (start_s + onset, HEARD_OFF_S),
+            Some(&onset) => (onset, HEARD_OFF_S),
             None => (link.time_s, off_s),
         }
     });

@@ -1,6 +1,6 @@
 //! What a user should know about a result, and what to do about it.
 
-use super::Stretch;
+use super::stretch::Stretch;
 use crate::fit::Estimate;
 use crate::fit::flights::{Flights, Impact as Timed};
 use crate::fit::total_time::{Missing, TotalTime, left_s};
@@ -140,7 +140,7 @@ pub(super) fn of_contact(given_s: Option<f64>, timed: &[Timed]) -> Option<Warnin
 }
 
 fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
-    let sound = stretch.between(time_s - 1e-3, time_s + 5e-3);
+    let sound = stretch.sound.between(time_s - 1e-3, time_s + 5e-3);
     sound.iter().filter(|x| x.abs() >= CLIPPED).count() >= CLIPPED_SAMPLES
 }
 

@@ -1,4 +1,4 @@
-//! Where something struck: candidate impacts from samples and a rate. Knows nothing of balls.
+//! Where something struck: [events](crate::event) from samples and a rate. Knows nothing of balls.
 //!
 //! [`quiet`] watches over everything for the little in which something happens. A [filter bank](crate::signal::filterbank) splits that
 //! into octaves, [`rise`] measures how surely the energy went up at each moment, [`peaks`] picks the moments.
@@ -12,7 +12,9 @@ mod rounding;
 mod windows;
 
 use crate::Error;
+use crate::event::Event;
 use crate::signal::filterbank::Filterbank;
+use crate::signal::sound::Sound;
 use crate::units::{real, samples_in};
 
 /// How candidates are found. Every field has a default that suits all recordings seen so far.
@@ -46,23 +48,10 @@ impl Default for Settings {
     }
 }
 
-/// A moment at which the energy rose.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Candidate {
-    /// Seconds from the first sample.
-    pub time_s: f64,
-    /// How far off the time may be, in seconds (one standard deviation): a quarter of a millisecond for a click, a
-    /// millisecond or two for a thud.
-    pub jitter_s: f64,
-    /// Evidence that something struck, in nats: the log-likelihood ratio of a rise in energy, summed over bands, or of a match
-    /// of z standard deviations, z²/2.
-    pub strength: f64,
-}
-
 /// Margin on both sides of a segment that is computed but not reported, in seconds: the reach of the longest filters.
 const MARGIN_S: f64 = 0.25;
 
-/// Finds candidates at one rate.
+/// Finds events at one rate.
 #[derive(Debug, Clone)]
 pub struct Detector {
     bank: Filterbank,
@@ -91,7 +80,8 @@ impl Detector {
 
     /// All moments at which the energy rose, weak ones included, in order of time.
     #[must_use]
-    pub fn candidates(&self, samples: &[f32]) -> Vec<Candidate> {
+    pub fn events(&self, sound: &Sound<'_>) -> Vec<Event> {
+        let samples = sound.samples;
         let hop = self.bank.hop();
         // Whole hops, so that the grids of neighbouring segments are one grid.
         let hops = |span_s| samples_in(span_s, self.sample_rate_hz).div_ceil(hop) * hop;
@@ -108,42 +98,46 @@ impl Detector {
             let from = start.saturating_sub(margin);
             let to = (end + margin).min(samples.len());
             let inside = (start - from) / hop..(end - from).div_ceil(hop);
-            self.add_candidates(&samples[from..to], from, inside, &mut found);
+            let segment = Sound {
+                samples: &samples[from..to],
+                start_s: sound.time_s(real(from)),
+                ..*sound
+            };
+            self.add_events(&segment, inside, &mut found);
             start = end;
         }
         found
     }
 
-    /// Adds the candidates of one segment, which begins at the sample `from`, that lie in a range of its hops.
-    fn add_candidates(
+    /// Adds the events of one segment that lie in a range of its hops.
+    fn add_events(
         &self,
-        segment: &[f32],
-        from: usize,
+        segment: &Sound<'_>,
         inside: std::ops::Range<usize>,
-        found: &mut Vec<Candidate>,
+        found: &mut Vec<Event>,
     ) {
-        let evidence = rise::Evidence::of(&self.bank, segment);
+        let evidence = rise::Evidence::of(&self.bank, segment.samples);
         let separation = self.settings.separation_s / self.bank.hop_s();
         let peaks = peaks::pick(&evidence.total, separation, self.settings.weakest);
         let peaks = peaks.iter().filter(|p| inside.contains(&p.index));
-        found.extend(peaks.map(|p| Candidate {
-            time_s: real(from) / self.sample_rate_hz + evidence.begin(p.index) * self.bank.hop_s(),
+        found.extend(peaks.map(|p| Event {
+            time_s: segment.start_s + evidence.begin(p.index) * self.bank.hop_s(),
             jitter_s: evidence.jitter_s(p.index),
             strength: p.height,
         }));
     }
 }
 
-/// How many of its strongest candidates speak for a channel.
+/// How many of its strongest events speak for a channel.
 const SPEAKERS: usize = 100;
 
-/// How clearly a recording's impacts stand out: the sum of its hundred strongest candidates, in nats.
+/// How clearly a recording's impacts stand out: the sum of its hundred strongest events, in nats.
 ///
 /// Of several channels the clearest is listened to. Channels are never averaged: two microphones hear one impact at
 /// different times, and their sum smears its onset.
 #[must_use]
-pub fn clarity(candidates: &[Candidate]) -> f64 {
-    let mut strengths: Vec<f64> = candidates.iter().map(|c| c.strength).collect();
+pub fn clarity(events: &[Event]) -> f64 {
+    let mut strengths: Vec<f64> = events.iter().map(|e| e.strength).collect();
     strengths.sort_by(|a, b| b.total_cmp(a));
     strengths.iter().take(SPEAKERS).sum()
 }

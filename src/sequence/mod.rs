@@ -1,6 +1,6 @@
-//! Which candidates are the impacts of a drop: the chain whose flights shrink as those of a bouncing ball do.
+//! Which events are the impacts of a drop: the chain whose flights shrink as those of a bouncing ball do.
 //!
-//! [`seeds`] proposes three candidates, [`track`] follows the flights from there both ways, [`clutter`] says how much
+//! [`seeds`] proposes three events, [`track`] follows the flights from there both ways, [`clutter`] says how much
 //! each match is worth, [`drops`] chooses among the chains found, [`reasons`] says why the rest was left out.
 
 pub mod clutter;
@@ -15,6 +15,7 @@ pub mod track;
 pub use drops::{Chain, Found, Link, find, follow_again};
 pub use reasons::{Reason, Rejected, is_echo_of};
 
+use crate::event::Event;
 use crate::physics::priors::TRACKED_BOUNCE_STD;
 
 /// What is known of balls before listening. Defaults suit drops from centimetres to metres.
@@ -43,15 +44,4 @@ impl Default for Settings {
             least_evidence: 12.0,
         }
     }
-}
-
-/// A moment at which something may have struck.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Event {
-    /// Seconds from the first sample.
-    pub time_s: f64,
-    /// How far off the time may be, in seconds (one standard deviation).
-    pub jitter_s: f64,
-    /// Evidence for it; its rank among its neighbours and its ratio to theirs matter here.
-    pub strength: f64,
 }

@@ -1,4 +1,4 @@
-//! Three candidates from which a drop may be followed.
+//! Three events from which a drop may be followed.
 
 use super::Event;
 use super::flight::{Doubt, FlightLaw};

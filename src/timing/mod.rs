@@ -30,7 +30,7 @@ words! {
 /// A time with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Timed {
-    /// Seconds from the first sample to the onset of the sound.
+    /// Onset of the sound in seconds from the start of the recording.
     pub time_s: f64,
     /// Standard error in seconds, without what all impacts of the drop share.
     pub std_s: f64,
@@ -84,12 +84,12 @@ pub fn refine(sound: &Whitened<'_>, coarse: &[Timed], timing: Timing) -> Refined
 /// The time of one impact by its own rise.
 fn by_fraction(sound: &Whitened<'_>, time_s: f64) -> Option<Timed> {
     let rate = sound.sample_rate_hz();
-    let centre = samples_in(time_s, rate);
+    let centre = sound.sound().sample_at(time_s);
     let start = centre.checked_sub(samples_in(BEFORE_S, rate))?;
     let window = sound.between(start, centre + samples_in(AFTER_S, rate))?;
     let rise = fraction::time(&window, centre - start, rate)?;
     Some(Timed {
-        time_s: (real(start) + rise.position) / rate,
+        time_s: sound.sound().time_s(real(start) + rise.position),
         std_s: rise.std / rate,
     })
 }

@@ -30,6 +30,7 @@ mod start;
 mod tests;
 
 use super::Timed;
+use crate::signal::sound::Sound;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
 use crate::statistics::upper_median;
@@ -92,12 +93,12 @@ pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Timed]) -> Option<(Vec<Ti
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
     let followed = drift::follow(&started, aligned);
-    let timed = timed(&started, &followed);
+    let timed = timed(whitened.sound(), &started, &followed);
     Some((timed, followed.joint.template))
 }
 
 /// Times and standard errors in seconds of the recording.
-fn timed(started: &Started, followed: &Followed<'_>) -> Vec<Timed> {
+fn timed(recorded: &Sound<'_>, started: &Started, followed: &Followed<'_>) -> Vec<Timed> {
     let (joint, late) = (&followed.joint, &followed.late);
     let onset = joint.template.onset(started.rate);
     let usual = usual_move(&joint.priors, &joint.places);
@@ -113,7 +114,7 @@ fn timed(started: &Started, followed: &Followed<'_>) -> Vec<Timed> {
             _ => (prior.position + usual, prior.std),
         };
         Timed {
-            time_s: (real(started.first) + position + onset) / started.rate,
+            time_s: recorded.time_s(real(started.first) + position + onset),
             std_s: std / started.rate,
         }
     };

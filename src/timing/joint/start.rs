@@ -51,11 +51,12 @@ impl Started {
         }
         let (rate, range) = (whitened.sample_rate_hz(), whitened.range());
         let (first_s, last_s) = (coarse.first()?.time_s, coarse.last()?.time_s);
-        let first = samples_in(first_s - LEAD_S, rate).max(range.start);
-        let end = samples_in(last_s + LONGEST_S, rate).min(range.end);
+        let recorded = whitened.sound();
+        let first = recorded.sample_at(first_s - LEAD_S).max(range.start);
+        let end = recorded.sample_at(last_s + LONGEST_S).min(range.end);
         let sound = whitened.between(first, end)?;
         let seen = coarse.iter().map(|t| Prior {
-            position: t.time_s * rate - real(first),
+            position: recorded.position(t.time_s) - real(first),
             std: t.std_s * rate,
         });
         let mut priors: Vec<Prior> = seen.collect();

@@ -1,0 +1,37 @@
+//! The stretch of a channel that is analyzed.
+
+use crate::detect;
+use crate::sequence::Chain;
+use crate::signal::sound::Sound;
+use crate::signal::whiten::Whitened;
+use crate::timing::{Refined, Timed, Timing, refine};
+
+/// Standard error of a time on the detector's grid, in hops: a uniform error of one hop either way.
+const GRID_ERROR: f64 = 0.58;
+
+/// A stretch of a channel, and where listening to its recording began.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch<'a> {
+    pub sound: Sound<'a>,
+    /// Where listening began; the stretch may begin later.
+    pub listened_from_s: f64,
+}
+
+impl<'a> Stretch<'a> {
+    /// The sound that a chain is timed in.
+    pub(super) fn whitened(&self, chain: &Chain) -> Whitened<'a> {
+        Whitened::around(self.sound, chain.span_s())
+    }
+
+    /// The heard impacts of a chain.
+    pub(super) fn timed(&self, chain: &Chain, sound: &Whitened<'_>, timing: Timing) -> Refined {
+        let hop_s = detect::Settings::default().hop_s;
+        let heard = chain.links.iter().filter(|l| l.event.is_some());
+        let coarse = heard.map(|l| Timed {
+            time_s: l.time_s,
+            std_s: l.jitter_s.max(GRID_ERROR * hop_s),
+        });
+        let coarse: Vec<Timed> = coarse.collect();
+        refine(sound, &coarse, timing)
+    }
+}
