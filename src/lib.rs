@@ -106,6 +106,10 @@ mod event;
 pub mod fit;
 #[cfg(not(feature = "internals"))]
 mod fit;
+#[cfg(feature = "internals")]
+pub mod impact;
+#[cfg(not(feature = "internals"))]
+mod impact;
 #[cfg(all(feature = "plots", feature = "internals"))]
 pub mod plot;
 #[cfg(all(feature = "plots", not(feature = "internals")))]

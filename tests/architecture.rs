@@ -9,12 +9,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// All of src, from the bottom up, and what each may name: only what stands above its own line.
-const MAY_NAME: [(&str, &[&str]); 26] = [
+const MAY_NAME: [(&str, &[&str]); 27] = [
     ("error.rs", &[]),
     ("words.rs", &[]),
     ("units.rs", &[]),
     ("random.rs", &[]),
     ("event.rs", &[]),
+    ("impact.rs", &["words"]),
     ("linalg.rs", &["units"]),
     ("statistics.rs", &["units"]),
     ("physics", &["units", "random", "words"]),
@@ -25,17 +26,42 @@ const MAY_NAME: [(&str, &[&str]); 26] = [
     ),
     (
         "sequence",
-        &["units", "statistics", "event", "linalg", "physics"],
+        &[
+            "units",
+            "statistics",
+            "event",
+            "impact",
+            "linalg",
+            "physics",
+        ],
     ),
     (
         "timing",
-        &["units", "random", "statistics", "linalg", "words", "signal"],
+        &[
+            "units",
+            "random",
+            "statistics",
+            "linalg",
+            "words",
+            "impact",
+            "signal",
+        ],
     ),
     (
         "fit",
-        &["units", "statistics", "linalg", "words", "physics"],
+        &[
+            "units",
+            "statistics",
+            "linalg",
+            "words",
+            "impact",
+            "physics",
+        ],
     ),
-    ("report", &["units", "words", "physics", "timing", "fit"]),
+    (
+        "report",
+        &["units", "words", "impact", "physics", "timing", "fit"],
+    ),
     (
         "rules",
         &["units", "statistics", "physics", "fit", "report"],
@@ -48,6 +74,7 @@ const MAY_NAME: [(&str, &[&str]); 26] = [
             "random",
             "statistics",
             "event",
+            "impact",
             "physics",
             "signal",
             "detect",

@@ -4,10 +4,10 @@ use super::Settings;
 use super::drop::{Measured, fit};
 use super::stretch::Stretch;
 use crate::Error;
-use crate::fit::flights::Impact as Timed;
+use crate::impact::Impact;
 use crate::report::labels::Marked;
-use crate::report::{Analysis, Status, Warning, WarningCode};
-use crate::sequence::{Chain, Link};
+use crate::report::{Analysis, Warning, WarningCode};
+use crate::sequence::Chain;
 use crate::signal::sound::Sound;
 use crate::units::real;
 
@@ -81,16 +81,14 @@ fn measured(
             ),
         });
     }
-    let link = |(i, m): (usize, &Marked)| Link {
-        event: (m.status != Status::Inferred).then_some(i),
+    let impact = |m: &Marked| Impact {
         time_s: m.time_s,
-        jitter_s: m.std_s,
-        gain: 0.0,
-        doubtful: m.status == Status::Doubtful,
+        std_s: m.std_s,
+        status: m.status,
+        nats: f64::INFINITY,
     };
     let chain = Chain {
-        links: marked.iter().enumerate().map(link).collect(),
-        evidence: f64::INFINITY,
+        impacts: marked.iter().map(impact).collect(),
         rejected: Vec::new(),
     };
     if chain.heard() < FEWEST {
@@ -102,13 +100,7 @@ fn measured(
             ),
         });
     }
-    let timed = |m: &Marked| Timed {
-        time_s: m.time_s,
-        std_s: m.std_s,
-        heard: m.status != Status::Inferred,
-    };
-    let timed: Vec<Timed> = marked.iter().map(timed).collect();
-    let mut measured = fit(stretch, &chain, timed, channel, settings)?;
+    let mut measured = fit(stretch, chain, channel, settings)?;
     measured.given = Some(note(marked));
     Ok(measured)
 }

@@ -74,13 +74,12 @@ pub(super) fn hear(
     let edge = Edge::of(&stretch, bounds.cut, &found);
     let rejected = rejected_before(edge.settled_s, told_s, &events, &found);
     let weak = weak_before(edge.settled_s, &events, &found);
-    let mut all = events.clone();
     let new = found.drops.into_iter();
     let new = new.filter(|chain| !edge.waits(chain) && !is_told(chain, told_s));
     let mut followed: Vec<Followed<'_>> = new
-        .map(|chain| tail::follow(&stretch, chain, &mut all, &balls))
+        .map(|chain| tail::follow(&stretch, chain, &balls))
         .collect();
-    followed.sort_by(|a, b| b.chain.evidence.total_cmp(&a.chain.evidence));
+    followed.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
     let mut kept: Vec<Followed<'_>> = Vec::new();
     for new in followed {
         if !kept.iter().any(|k| is_echo_of(&new.chain, &k.chain)) {
@@ -89,7 +88,7 @@ pub(super) fn hear(
     }
     kept.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
     let drops = kept
-        .iter()
+        .into_iter()
         .map(|followed| drop::measure(&stretch, followed, channel, settings));
     let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
     Ok(Heard {
@@ -158,7 +157,7 @@ impl Edge {
     /// Whether a drop may go on past the cut.
     fn is_open(&self, chain: &Chain) -> bool {
         let last_s = chain.span_s().1;
-        let before_s = chain.links.iter().rev().nth(1).map_or(0.0, |l| l.time_s);
+        let before_s = chain.impacts.iter().rev().nth(1).map_or(0.0, |i| i.time_s);
         last_s + OPEN_FLIGHTS * (last_s - before_s) + OPEN_S > self.end_s
     }
 
@@ -178,8 +177,8 @@ fn is_known(time_s: f64, told_s: &[f64]) -> bool {
 
 /// Whether a chain is the later part of a drop that was told already.
 fn is_told(chain: &Chain, told_s: &[f64]) -> bool {
-    let known = chain.links.iter().filter(|l| is_known(l.time_s, told_s));
-    2 * known.count() > chain.links.len()
+    let known = chain.impacts.iter().filter(|i| is_known(i.time_s, told_s));
+    2 * known.count() > chain.impacts.len()
 }
 
 fn rejected_before(
@@ -201,8 +200,8 @@ fn rejected_before(
 /// Events before a time that are neither an impact nor named.
 fn weak_before(settled_s: f64, events: &[Event], found: &Found) -> usize {
     let named = |chain: &Chain| {
-        let links = chain.links.iter().filter(|l| l.event.is_some());
-        let times = links.map(|l| l.time_s);
+        let heard = chain.impacts.iter().filter(|i| i.is_heard());
+        let times = heard.map(|i| i.time_s);
         let rejected = chain.rejected.iter().map(|r| r.time_s);
         times.chain(rejected).filter(|&t| t < settled_s).count()
     };

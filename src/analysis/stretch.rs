@@ -1,10 +1,11 @@
 //! The stretch of a channel that is analyzed.
 
 use crate::detect;
+use crate::impact::Impact;
 use crate::sequence::Chain;
 use crate::signal::sound::Sound;
 use crate::signal::whiten::Whitened;
-use crate::timing::{Refined, Timed, Timing, refine};
+use crate::timing::{Refined, Timing, refine};
 
 /// Standard error of a time on the detector's grid, in hops: a uniform error of one hop either way.
 const GRID_ERROR: f64 = 0.58;
@@ -23,15 +24,14 @@ impl<'a> Stretch<'a> {
         Whitened::around(self.sound, chain.span_s())
     }
 
-    /// The heard impacts of a chain.
+    /// The impacts of a chain with their times.
     pub(super) fn timed(&self, chain: &Chain, sound: &Whitened<'_>, timing: Timing) -> Refined {
         let hop_s = detect::Settings::default().hop_s;
-        let heard = chain.links.iter().filter(|l| l.event.is_some());
-        let coarse = heard.map(|l| Timed {
-            time_s: l.time_s,
-            std_s: l.jitter_s.max(GRID_ERROR * hop_s),
+        let coarse = chain.impacts.iter().map(|&seen| Impact {
+            std_s: seen.std_s.max(GRID_ERROR * hop_s),
+            ..seen
         });
-        let coarse: Vec<Timed> = coarse.collect();
+        let coarse: Vec<Impact> = coarse.collect();
         refine(sound, &coarse, timing)
     }
 }

@@ -3,6 +3,7 @@
 //! [`seeds`] proposes three events, [`track`] follows the flights from there both ways, [`clutter`] says how much
 //! each match is worth, [`drops`] chooses among the chains found, [`reasons`] says why the rest was left out.
 
+pub mod chain;
 pub mod clutter;
 pub mod drops;
 mod extend;
@@ -12,7 +13,8 @@ mod reassociate;
 pub mod seeds;
 pub mod track;
 
-pub use drops::{Chain, Found, Link, find, follow_again};
+pub use chain::Chain;
+pub use drops::{Found, find, follow_again};
 pub use reasons::{Reason, Rejected, is_echo_of};
 
 use crate::event::Event;

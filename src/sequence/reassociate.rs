@@ -1,7 +1,7 @@
 //! Following a chain anew with what it taught: its own impacts and their echoes are no clutter.
 
+use super::chain::Track;
 use super::clutter::Rates;
-use super::drops::Chain;
 use super::reasons;
 use super::track::{Scene, Step, follow};
 
@@ -21,27 +21,27 @@ struct Version {
 /// one another for ever, and the one with the most evidence among them is taken. They are compared under one clutter:
 /// all events but those that any of them explains.
 #[must_use]
-pub(super) fn reassociated(scene: &Scene<'_>, steps: Vec<Step>) -> Chain {
+pub(super) fn reassociated(scene: &Scene<'_>, steps: Vec<Step>) -> Track {
     within(MOST_VERSIONS, scene, steps)
 }
 
-fn within(most: usize, scene: &Scene<'_>, mut steps: Vec<Step>) -> Chain {
+fn within(most: usize, scene: &Scene<'_>, mut steps: Vec<Step>) -> Track {
     let mut versions: Vec<Version> = Vec::new();
     loop {
         if let Some(first) = versions.iter().position(|v| is_same(&v.steps, &steps)) {
             // The same impacts, judged as they stand now.
             versions[first].steps = steps;
-            return Chain::new(&best(scene, versions.split_off(first)));
+            return Track::new(&best(scene, versions.split_off(first)));
         }
         let Some(seed) = best_seed(&steps) else {
-            return Chain::new(&steps);
+            return Track::new(&steps);
         };
-        let explained = reasons::explained(scene, &Chain::new(&steps));
+        let explained = reasons::explained(scene, &Track::new(&steps));
         let next = follow(scene, &mut scene.rates_without(&explained), seed);
         versions.push(Version { steps, explained });
         steps = next;
         if versions.len() == most {
-            return Chain::new(&best(scene, versions));
+            return Track::new(&best(scene, versions));
         }
     }
 }
@@ -144,8 +144,8 @@ mod tests {
                 // A chain that does not come out again when it is followed anew is one of a cycle.
                 let explained = reasons::explained(&scene, &usual);
                 let mut rates = scene.rates_without(&explained);
-                let again = best_seed(&steps).map(|s| Chain::new(&follow(&scene, &mut rates, s)));
-                cycles += usize::from(again.is_some_and(|a| !a.events().eq(usual.events())));
+                let again = best_seed(&steps).map(|s| Track::new(&follow(&scene, &mut rates, s)));
+                cycles += usize::from(again.is_some_and(|a| a.events != usual.events));
                 followed += 1;
             }
         }

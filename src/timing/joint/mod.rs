@@ -29,7 +29,7 @@ mod start;
 #[cfg(test)]
 mod tests;
 
-use super::Timed;
+use crate::impact::Impact;
 use crate::signal::sound::Sound;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
@@ -89,16 +89,21 @@ struct Place {
 
 /// Times of the impacts from coarse times in ascending order, and the template that they were found by; an impact that does not
 /// resemble the others keeps the detector's time. None if there are fewer than three.
-pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Timed]) -> Option<(Vec<Timed>, Template)> {
+pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<Impact>, Template)> {
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
     let followed = drift::follow(&started, aligned);
-    let timed = timed(whitened.sound(), &started, &followed);
+    let timed = timed(whitened.sound(), coarse, &started, &followed);
     Some((timed, followed.joint.template))
 }
 
-/// Times and standard errors in seconds of the recording.
-fn timed(recorded: &Sound<'_>, started: &Started, followed: &Followed<'_>) -> Vec<Timed> {
+/// The impacts with their times and standard errors in seconds of the recording.
+fn timed(
+    recorded: &Sound<'_>,
+    coarse: &[Impact],
+    started: &Started,
+    followed: &Followed<'_>,
+) -> Vec<Impact> {
     let (joint, late) = (&followed.joint, &followed.late);
     let onset = joint.template.onset(started.rate);
     let usual = usual_move(&joint.priors, &joint.places);
@@ -113,9 +118,10 @@ fn timed(recorded: &Sound<'_>, started: &Started, followed: &Followed<'_>) -> Ve
             // It does not resemble the others, or rival places lie farther apart than the detector errs.
             _ => (prior.position + usual, prior.std),
         };
-        Timed {
+        Impact {
             time_s: recorded.time_s(real(started.first) + position + onset),
             std_s: std / started.rate,
+            ..coarse[i]
         }
     };
     (0..stds.len()).map(in_recording).collect()

@@ -1,6 +1,7 @@
 //! What is known of a drop's impacts before any is matched.
 
-use super::{BEFORE_S, LEAD_S, LONGEST_S, Place, Prior, Timed};
+use super::{BEFORE_S, LEAD_S, LONGEST_S, Place, Prior};
+use crate::impact::Impact;
 use crate::signal::interpolate::shifted;
 use crate::signal::template::aligned::{Cut, SHORTEST_S};
 use crate::signal::whiten::Whitened;
@@ -45,7 +46,7 @@ pub(super) struct Started {
 
 impl Started {
     /// From coarse times in ascending order; none of fewer than three, or where the recording is too short.
-    pub(super) fn of(whitened: &Whitened<'_>, coarse: &[Timed]) -> Option<Self> {
+    pub(super) fn of(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Self> {
         if coarse.len() < FEWEST {
             return None;
         }

@@ -79,11 +79,8 @@ fn errors(ball: &Ball, onsets_s: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Coarse times as a detector gives them that is sure of them.
-fn seen(times_s: &[f64]) -> Vec<Timed> {
-    let sure = |&time_s: &f64| Timed {
-        time_s,
-        std_s: 1.5e-4,
-    };
+fn seen(times_s: &[f64]) -> Vec<Impact> {
+    let sure = |&time_s: &f64| Impact::heard(time_s, 1.5e-4);
     times_s.iter().map(sure).collect()
 }
 
