@@ -29,7 +29,8 @@ pub struct Impact {
 }
 
 impl Impact {
-    /// An impact that was heard beyond doubt, at a time with its standard error, in seconds.
+    /// An impact that was heard beyond doubt, at a time with its standard error, in seconds, as examples and tests make it.
+    #[cfg(any(test, feature = "internals"))]
     #[must_use]
     pub const fn heard(time_s: f64, std_s: f64) -> Self {
         Self {

@@ -10,15 +10,15 @@ use crate::event::Event;
 use crate::report::Rejected;
 use crate::sequence::{self, Chain, Found, is_echo_of};
 use crate::signal::sound::Sound;
-use crate::units::real;
+use crate::units::frame_time_s;
 
 /// Where a scene is in its recording.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     /// Its first frame.
-    pub first: usize,
+    pub first: u64,
     /// First frame of the recording that was listened to.
-    pub listened_from: usize,
+    pub listened_from: u64,
     /// Whether it goes on, because there was no room for all of it.
     pub cut: bool,
 }
@@ -58,7 +58,7 @@ pub(super) fn hear(
     let sound = |channel: usize| Sound {
         samples: channels[channel],
         sample_rate_hz: rate,
-        start_s: real(bounds.first) / rate,
+        start_s: frame_time_s(bounds.first, rate),
     };
     let heard = (0..channels.len()).map(|channel| detector.events(&sound(channel)));
     let mut heard: Vec<Vec<Event>> = heard.collect();
@@ -66,7 +66,7 @@ pub(super) fn hear(
     let channel = clearest(&clarities);
     let stretch = Stretch {
         sound: sound(channel),
-        listened_from_s: real(bounds.listened_from) / rate,
+        listened_from_s: frame_time_s(bounds.listened_from, rate),
     };
     let events = heard.swap_remove(channel);
     let balls = sequence::Settings::default();
