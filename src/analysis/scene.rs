@@ -69,16 +69,13 @@ pub(super) fn hear(
         listened_from_s: frame_time_s(bounds.listened_from, rate),
     };
     let events = heard.swap_remove(channel);
-    let balls = sequence::Settings::default();
-    let found = sequence::find(&events, &balls);
+    let found = sequence::find(&events);
     let edge = Edge::of(&stretch, bounds.cut, &found);
     let rejected = rejected_before(edge.settled_s, told_s, &events, &found);
     let weak = weak_before(edge.settled_s, &events, &found);
     let new = found.drops.into_iter();
     let new = new.filter(|chain| !edge.waits(chain) && !is_told(chain, told_s));
-    let mut followed: Vec<Followed<'_>> = new
-        .map(|chain| tail::follow(&stretch, chain, &balls))
-        .collect();
+    let mut followed: Vec<Followed<'_>> = new.map(|chain| tail::follow(&stretch, chain)).collect();
     followed.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
     let mut kept: Vec<Followed<'_>> = Vec::new();
     for new in followed {

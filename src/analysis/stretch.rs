@@ -1,6 +1,6 @@
 //! The stretch of a channel that is analyzed.
 
-use crate::detect;
+use crate::detect::HOP_S;
 use crate::impact::Impact;
 use crate::sequence::Chain;
 use crate::signal::sound::Sound;
@@ -26,9 +26,8 @@ impl<'a> Stretch<'a> {
 
     /// The impacts of a chain with their times.
     pub(super) fn timed(&self, chain: &Chain, sound: &Whitened<'_>, timing: Timing) -> Refined {
-        let hop_s = detect::Settings::default().hop_s;
         let coarse = chain.impacts.iter().map(|&seen| Impact {
-            std_s: seen.std_s.max(GRID_ERROR * hop_s),
+            std_s: seen.std_s.max(GRID_ERROR * HOP_S),
             ..seen
         });
         let coarse: Vec<Impact> = coarse.collect();

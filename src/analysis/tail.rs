@@ -35,11 +35,7 @@ pub(super) struct Followed<'a> {
 }
 
 /// The chain with its end followed by the sound of its impacts, if that finds more.
-pub(super) fn follow<'a>(
-    stretch: &Stretch<'a>,
-    chain: Chain,
-    settings: &sequence::Settings,
-) -> Followed<'a> {
+pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
     let sound = stretch.whitened(&chain);
     let Some((first, region_s)) = region(&chain, stretch.sound.end_s()) else {
         return Followed {
@@ -58,7 +54,7 @@ pub(super) fn follow<'a>(
     let shortest_s = flights.fold(f64::INFINITY, f64::min);
     let found = template.and_then(|t| matched::events(&sound, &t, shortest_s, region_s));
     let longer = found.and_then(|late| {
-        let end = sequence::follow_again(&late, &known(&chain, &timed), settings)?;
+        let end = sequence::follow_again(&late, &known(&chain, &timed))?;
         joined(&chain, first, &end)
     });
     let (chain, timed) = match longer {

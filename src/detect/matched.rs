@@ -35,9 +35,9 @@ const LEAST_JITTER_S: f64 = 0.05e-3;
 
 /// Matches with a drop's template in its whitened sound, in a region of the recording, in order of time.
 ///
-/// No flight of the drop is known to be shorter than `shortest_s`; `region_s` is where to look. The strength of a match is its
-/// size in standard deviations of the noise, which falls with the ball's speed as loudness does. None where the region is cut
-/// by the end of the recording.
+/// No flight of the drop is known to be shorter than `shortest_s`; `region_s` is where to look. A match of z
+/// standard deviations of the noise is z²/2 nats; z falls with the ball's speed as loudness does. None where the region is
+/// cut by the end of the recording.
 #[must_use]
 pub fn events(
     sound: &Whitened<'_>,

@@ -17,37 +17,18 @@ use crate::signal::filterbank::Filterbank;
 use crate::signal::sound::Sound;
 use crate::units::{real, samples_in};
 
-/// How candidates are found. Every field has a default that suits all recordings seen so far.
-#[derive(Debug, Clone)]
-#[non_exhaustive]
-pub struct Settings {
-    /// Time grid of the energy, in seconds; rounded to a power of two of samples. Default 0.25 ms: a few times shorter
-    /// than the shortest contact, and still cheap.
-    pub hop_s: f64,
-    /// Lowest frequency listened to, in Hz. Default 40: the octave above holds most of a basketball's thud.
-    pub lowest_hz: f64,
-    /// Two candidates are at least this far apart, in seconds. Default 1 ms: a quarter of the shortest audible flight.
-    pub separation_s: f64,
-    /// Weakest candidate kept, in nats of evidence. Default 3.5: white noise offers a hundred of these a second, and
-    /// the sequence needs weak ones.
-    pub weakest: f64,
-    /// Length of the stretches whose ordinary level is learnt together, in seconds. Default 8: long against a flight,
-    /// short against a change of scene.
-    pub segment_s: f64,
-}
-
-impl Default for Settings {
-    fn default() -> Self {
-        Self {
-            hop_s: 0.25e-3,
-            lowest_hz: 40.0,
-            separation_s: 1e-3,
-            weakest: 3.5,
-            segment_s: 8.0,
-        }
-    }
-}
-
+/// Time grid of the energy, in seconds; a bank rounds it to a power of two of samples. It is a few times shorter than the
+/// shortest contact, and still cheap.
+pub const HOP_S: f64 = 0.25e-3;
+/// Lowest frequency listened to, in Hz: the octave above holds most of a basketball's thud.
+const LOWEST_HZ: f64 = 40.0;
+/// Two events are at least this far apart, in seconds: a quarter of the shortest audible flight.
+const SEPARATION_S: f64 = 1e-3;
+/// Weakest event kept, in nats: white noise offers a hundred of these a second, and the sequence needs weak ones.
+const WEAKEST: f64 = 3.5;
+/// Length of the stretches whose ordinary level is learnt together, in seconds: long against a flight, short against a
+/// change of scene.
+const SEGMENT_S: f64 = 8.0;
 /// Margin on both sides of a segment that is computed but not reported, in seconds: the reach of the longest filters.
 const MARGIN_S: f64 = 0.25;
 
@@ -56,19 +37,17 @@ const MARGIN_S: f64 = 0.25;
 pub struct Detector {
     bank: Filterbank,
     sample_rate_hz: f64,
-    settings: Settings,
 }
 
 impl Detector {
     /// A detector for samples at this rate.
     ///
     /// # Errors
-    /// [`Error::Argument`] if the rate is too low to hold an octave above [`Settings::lowest_hz`].
-    pub fn new(sample_rate_hz: f64, settings: &Settings) -> Result<Self, Error> {
+    /// [`Error::Argument`] if the rate is too low to hold an octave above 40 Hz.
+    pub fn new(sample_rate_hz: f64) -> Result<Self, Error> {
         Ok(Self {
-            bank: Filterbank::new(sample_rate_hz, settings.hop_s, settings.lowest_hz)?,
+            bank: Filterbank::new(sample_rate_hz, HOP_S, LOWEST_HZ)?,
             sample_rate_hz,
-            settings: settings.clone(),
         })
     }
 
@@ -85,7 +64,7 @@ impl Detector {
         let hop = self.bank.hop();
         // Whole hops, so that the grids of neighbouring segments are one grid.
         let hops = |span_s| samples_in(span_s, self.sample_rate_hz).div_ceil(hop) * hop;
-        let (segment, margin) = (hops(self.settings.segment_s), hops(MARGIN_S));
+        let (segment, margin) = (hops(SEGMENT_S), hops(MARGIN_S));
         let mut found = Vec::new();
         let mut start = 0;
         while start < samples.len() {
@@ -117,8 +96,8 @@ impl Detector {
         found: &mut Vec<Event>,
     ) {
         let evidence = rise::Evidence::of(&self.bank, segment.samples);
-        let separation = self.settings.separation_s / self.bank.hop_s();
-        let peaks = peaks::pick(&evidence.total, separation, self.settings.weakest);
+        let separation = SEPARATION_S / self.bank.hop_s();
+        let peaks = peaks::pick(&evidence.total, separation, WEAKEST);
         let peaks = peaks.iter().filter(|p| inside.contains(&p.index));
         found.extend(peaks.map(|p| Event {
             time_s: segment.start_s + evidence.begin(p.index) * self.bank.hop_s(),

@@ -1,12 +1,12 @@
 //! The drops of a recording: the best chains that share no event.
 
+use super::Event;
 use super::chain::{Chain, Track};
 use super::clutter::Clutter;
 use super::reasons::{self, Reason, Rejected};
 use super::reassociate::reassociated;
 use super::seeds::seeds;
 use super::track::{Scene, Step, follow};
-use super::{Event, Settings};
 use crate::units::real;
 
 /// What was found among the events.
@@ -18,6 +18,8 @@ pub struct Found {
     pub rejected: Vec<Rejected>,
 }
 
+/// Evidence a chain needs to be a drop, in nats: chance rarely makes one (none in 24 recordings without a drop).
+const LEAST_EVIDENCE: f64 = 12.0;
 /// Fewest impacts heard that make a drop: three flights, whose two ratios agree.
 const FEWEST: usize = 4;
 /// Over a whole drop the flights shrink at least to this share: ticking clocks and voices do not.
@@ -29,18 +31,18 @@ const GREATEST_RATIO: f64 = 0.985;
 
 /// Finds the drops among events in order of time.
 #[must_use]
-pub fn find(events: &[Event], settings: &Settings) -> Found {
+pub fn find(events: &[Event]) -> Found {
     if events.is_empty() {
         return Found::default();
     }
     let clutter = Clutter::new(events);
-    let scene = Scene::new(events, &clutter, settings);
+    let scene = Scene::new(events, &clutter);
     let mut taken = vec![false; events.len()];
     let mut explained = vec![false; events.len()];
     let mut drops: Vec<Track> = Vec::new();
     loop {
         let left: Vec<usize> = (0..events.len()).filter(|&i| !explained[i]).collect();
-        let found = disjoint(events, &left, &drops, settings);
+        let found = disjoint(events, &left, &drops);
         if found.is_empty() {
             break;
         }
@@ -59,12 +61,12 @@ pub fn find(events: &[Event], settings: &Settings) -> Found {
 }
 
 /// The best chains among some of the events that share none, and are no echo of one another or of the drops known.
-fn disjoint(events: &[Event], left: &[usize], known: &[Track], settings: &Settings) -> Vec<Track> {
+fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> Vec<Track> {
     let some: Vec<Event> = left.iter().map(|&i| events[i]).collect();
     let clutter = Clutter::new(&some);
-    let scene = Scene::new(&some, &clutter, settings);
+    let scene = Scene::new(&some, &clutter);
     let mut tracks = tracks(&scene);
-    tracks.retain(|track| is_drop(&track.chain, settings));
+    tracks.retain(|track| is_drop(&track.chain));
     tracks.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
     let mut taken = vec![false; some.len()];
     let mut found: Vec<Track> = Vec::new();
@@ -88,13 +90,9 @@ fn disjoint(events: &[Event], left: &[usize], known: &[Track], settings: &Settin
 /// `impacts_s` are the times of all impacts of the chain and how far off each may be, in seconds. None if no three
 /// neighbouring impacts have events.
 #[must_use]
-pub fn follow_again(
-    events: &[Event],
-    impacts_s: &[(f64, f64)],
-    settings: &Settings,
-) -> Option<Chain> {
+pub fn follow_again(events: &[Event], impacts_s: &[(f64, f64)]) -> Option<Chain> {
     let clutter = Clutter::new(events);
-    let scene = Scene::new(events, &clutter, settings);
+    let scene = Scene::new(events, &clutter);
     follow_known(&scene, impacts_s).map(|track| track.chain)
 }
 
@@ -153,7 +151,7 @@ fn tracks(scene: &Scene<'_>) -> Vec<Track> {
     tracks
 }
 
-fn is_drop(chain: &Chain, settings: &Settings) -> bool {
+fn is_drop(chain: &Chain) -> bool {
     let flights: Vec<f64> = chain
         .impacts
         .windows(2)
@@ -164,7 +162,7 @@ fn is_drop(chain: &Chain, settings: &Settings) -> bool {
     };
     let ratio = (last / first).powf(1.0 / real((flights.len() - 1).max(1)));
     chain.heard() >= FEWEST
-        && chain.evidence() >= settings.least_evidence
+        && chain.evidence() >= LEAST_EVIDENCE
         && last <= LEAST_SHRINKAGE * first
         && first >= LEAST_FLIGHT_S
         && ratio <= GREATEST_RATIO

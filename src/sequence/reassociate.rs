@@ -95,9 +95,9 @@ fn best_seed(steps: &[Step]) -> Option<[usize; 3]> {
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
+    use crate::sequence::Event;
     use crate::sequence::clutter::Clutter;
     use crate::sequence::seeds::seeds;
-    use crate::sequence::{Event, Settings};
 
     /// A drop of faint impacts with an echo, among knocks nearly as strong.
     fn events(seed: u64) -> Vec<Event> {
@@ -127,12 +127,11 @@ mod tests {
 
     #[test]
     fn more_rounds_than_the_limit_and_one_more_change_nothing() {
-        let settings = Settings::default();
         let (mut followed, mut cycles) = (0, 0);
         for seed in 1..=12 {
             let events = events(seed);
             let clutter = Clutter::new(&events);
-            let scene = Scene::new(&events, &clutter, &settings);
+            let scene = Scene::new(&events, &clutter);
             let mut rates = scene.rates();
             for start in seeds(&scene).into_iter().take(12) {
                 let steps = follow(&scene, &mut rates, start);

@@ -8,8 +8,8 @@ use super::Settings;
 use super::findings::Findings;
 use super::scene::{Bounds, hear};
 use crate::Error;
+use crate::detect::Detector;
 use crate::detect::quiet::Watch;
-use crate::detect::{self, Detector};
 use crate::report::Analysis;
 use crate::units::{frame_at, frame_time_s, frames, length, real, samples_in};
 
@@ -91,7 +91,7 @@ impl Listener {
             let all = "sample rate of all channels together";
             return Err(Error::argument(all, together, expected));
         }
-        let detector = Detector::new(sample_rate_hz, &detect::Settings::default())?;
+        let detector = Detector::new(sample_rate_hz)?;
         let frame = |time_s: f64| frame_at(time_s, sample_rate_hz);
         let first = settings.start_s.map_or(0, frame);
         let budget = HELD_BYTES / size_of::<f32>() / channels;
