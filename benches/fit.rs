@@ -5,8 +5,8 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use bounce_audio::fit::flights::Impact;
 use bounce_audio::fit::ladder::{Choice, Inputs, climb};
+use bounce_audio::impact::Impact;
 use bounce_audio::random::SplitMix64;
 
 const IMPACTS: usize = 60;
@@ -18,11 +18,7 @@ fn drop(seed: u64) -> Vec<Impact> {
     let (mut at_s, mut flight_s) = (0.0, 0.6);
     let mut impacts = Vec::with_capacity(IMPACTS);
     for _ in 0..IMPACTS {
-        impacts.push(Impact {
-            time_s: at_s + 5e-6 * rng.normal(),
-            std_s: 5e-6,
-            heard: true,
-        });
+        impacts.push(Impact::heard(at_s + 5e-6 * rng.normal(), 5e-6));
         at_s += flight_s + 1e-3;
         flight_s *= 0.93 * (0.005 * rng.normal()).exp();
     }

@@ -16,8 +16,8 @@ use std::sync::Mutex;
 use std::thread;
 
 use bounce_audio::fit::ModelKind;
-use bounce_audio::fit::flights::Impact;
 use bounce_audio::fit::ladder::{Choice, Climb, Inputs, climb};
+use bounce_audio::impact::Impact;
 use bounce_audio::physics::{
     FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution,
 };
@@ -189,11 +189,9 @@ impl Cell {
             .map(|_| self.bounce_std * rng.normal())
             .collect();
         let (times, ln_e) = self.times(self.e.ln(), FIRST_S, &scatter)?;
-        let impacts = times.into_iter().map(|time_s| Impact {
-            time_s: time_s + self.time_std_s * rng.normal(),
-            std_s: self.time_std_s,
-            heard: true,
-        });
+        let impacts = times
+            .into_iter()
+            .map(|time_s| Impact::heard(time_s + self.time_std_s * rng.normal(), self.time_std_s));
         Some((impacts.collect(), ln_e))
     }
 

@@ -99,9 +99,17 @@ pub mod evaluate;
 #[cfg(all(feature = "lab", not(feature = "internals")))]
 mod evaluate;
 #[cfg(feature = "internals")]
+pub mod event;
+#[cfg(not(feature = "internals"))]
+mod event;
+#[cfg(feature = "internals")]
 pub mod fit;
 #[cfg(not(feature = "internals"))]
 mod fit;
+#[cfg(feature = "internals")]
+pub mod impact;
+#[cfg(not(feature = "internals"))]
+mod impact;
 #[cfg(all(feature = "plots", feature = "internals"))]
 pub mod plot;
 #[cfg(all(feature = "plots", not(feature = "internals")))]

@@ -36,6 +36,38 @@ pub fn samples_in(span_s: f64, sample_rate_hz: f64) -> usize {
     whole(span_s * sample_rate_hz)
 }
 
+/// The frame of a stream that is nearest to a time in seconds from its start; 0 for earlier times and NaN.
+///
+/// Frames of a stream are counted in 64 bits: 32 end after a day at 48 kHz, and a length in memory may have no more.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates, as is said above"
+)]
+#[must_use]
+pub fn frame_at(time_s: f64, sample_rate_hz: f64) -> u64 {
+    (time_s * sample_rate_hz).round() as u64
+}
+
+/// The time of a frame of a stream, in seconds from its start.
+#[expect(clippy::cast_precision_loss, reason = "counts stay far below 2^53")]
+#[must_use]
+pub const fn frame_time_s(frame: u64, sample_rate_hz: f64) -> f64 {
+    frame as f64 / sample_rate_hz
+}
+
+/// The frames of a stream that stand in a buffer of this length.
+#[must_use]
+pub const fn frames(length: usize) -> u64 {
+    length as u64
+}
+
+/// The length of a buffer for frames of a stream; the greatest there is, where it would be longer.
+#[must_use]
+pub fn length(frames: u64) -> usize {
+    usize::try_from(frames).unwrap_or(usize::MAX)
+}
+
 /// What a number with a unit measures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Quantity {
@@ -131,6 +163,18 @@ mod tests {
         ] {
             assert_eq!(whole(x), count, "{x}");
         }
+    }
+
+    #[test]
+    fn frames_of_a_stream_are_counted_beyond_32_bits() {
+        let day_s = 86_400.0 * 1.25;
+        assert_eq!(frame_at(day_s, 48_000.0), 5_184_000_000);
+        assert_eq!(frame_time_s(5_184_000_000, 48_000.0), day_s);
+        assert_eq!(
+            (frame_at(-1.0, 48_000.0), frame_at(1e30, 48_000.0)),
+            (0, u64::MAX)
+        );
+        assert_eq!(length(frames(7)), 7);
     }
 
     #[test]

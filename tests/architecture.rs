@@ -9,29 +9,59 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// All of src, from the bottom up, and what each may name: only what stands above its own line.
-const MAY_NAME: [(&str, &[&str]); 25] = [
+const MAY_NAME: [(&str, &[&str]); 27] = [
     ("error.rs", &[]),
     ("words.rs", &[]),
     ("units.rs", &[]),
     ("random.rs", &[]),
+    ("event.rs", &[]),
+    ("impact.rs", &["words"]),
     ("linalg.rs", &["units"]),
     ("statistics.rs", &["units"]),
     ("physics", &["units", "random", "words"]),
     ("signal", &["units", "statistics", "linalg"]),
     (
         "detect",
-        &["units", "random", "statistics", "linalg", "signal"],
+        &["units", "random", "statistics", "event", "linalg", "signal"],
     ),
-    ("sequence", &["units", "statistics", "linalg", "physics"]),
+    (
+        "sequence",
+        &[
+            "units",
+            "statistics",
+            "event",
+            "impact",
+            "linalg",
+            "physics",
+        ],
+    ),
     (
         "timing",
-        &["units", "random", "statistics", "linalg", "words", "signal"],
+        &[
+            "units",
+            "random",
+            "statistics",
+            "linalg",
+            "words",
+            "impact",
+            "signal",
+        ],
     ),
     (
         "fit",
-        &["units", "statistics", "linalg", "words", "physics"],
+        &[
+            "units",
+            "statistics",
+            "linalg",
+            "words",
+            "impact",
+            "physics",
+        ],
     ),
-    ("report", &["units", "words", "physics", "timing", "fit"]),
+    (
+        "report",
+        &["units", "words", "impact", "physics", "timing", "fit"],
+    ),
     (
         "rules",
         &["units", "statistics", "physics", "fit", "report"],
@@ -43,6 +73,8 @@ const MAY_NAME: [(&str, &[&str]); 25] = [
             "units",
             "random",
             "statistics",
+            "event",
+            "impact",
             "physics",
             "signal",
             "detect",

@@ -1,6 +1,7 @@
 //! What the two flights beside an impact say of it: speeds, e and the energy kept, with the errors of the times.
 
-use crate::fit::flights::{Flights, Impact as Timed};
+use crate::fit::flights::Flights;
+use crate::impact::Impact;
 use crate::physics::BallModel;
 use crate::physics::ends::Ends;
 use crate::report::Bounce;
@@ -23,7 +24,7 @@ pub(super) fn ends(ball: Option<&BallModel>, interval_s: f64) -> Option<Ends> {
 /// u′ and w′ the derivatives of ln u and ln w by the interval, 1/T without drag. A late time makes the flight before it
 /// longer and the one after it shorter, so its two parts add. C, K and g count as exact.
 pub(super) fn bounce(
-    timed: &[Timed],
+    timed: &[Impact],
     flights: &Flights,
     number: usize,
     ball: Option<&BallModel>,
@@ -67,7 +68,7 @@ pub(super) fn bounce(
 
 /// Standard error of the rebound height `h = g·T²/8` after impact `number`: `σ_h = g·T/4·√(s₁² + s₂²)`.
 pub(super) fn rebound_height_std_m(
-    timed: &[Timed],
+    timed: &[Impact],
     flights: &Flights,
     number: usize,
     gravity_m_per_s2: f64,
@@ -85,12 +86,8 @@ mod tests {
 
     const G: f64 = 9.81;
 
-    fn timed(times_s: &[f64], std_s: f64) -> Vec<Timed> {
-        let impact = |&time_s: &f64| Timed {
-            time_s,
-            std_s,
-            heard: true,
-        };
+    fn timed(times_s: &[f64], std_s: f64) -> Vec<Impact> {
+        let impact = |&time_s: &f64| Impact::heard(time_s, std_s);
         times_s.iter().map(impact).collect()
     }
 
@@ -105,7 +102,7 @@ mod tests {
     }
 
     /// The second impact of these.
-    fn second(timed: &[Timed], ball: Option<&BallModel>) -> Bounce {
+    fn second(timed: &[Impact], ball: Option<&BallModel>) -> Bounce {
         bounce(timed, &Flights::between(timed), 1, ball, G)
     }
 
@@ -138,7 +135,7 @@ mod tests {
     }
 
     /// Standard deviation of what is read from times that err, over many tries.
-    fn scattered(read: impl Fn(&[Timed]) -> f64, std_s: f64) -> f64 {
+    fn scattered(read: impl Fn(&[Impact]) -> f64, std_s: f64) -> f64 {
         const TRIES: usize = 4_000;
         let mut rng = SplitMix64::new(5);
         let mut values = Vec::with_capacity(TRIES);
@@ -169,7 +166,7 @@ mod tests {
             // The standard deviation of 4000 tries errs by 1.1 %.
             assert!((stated / seen - 1.0).abs() < 0.05, "{i}: {stated} {seen}");
         }
-        let height = |t: &[Timed]| G * Flights::between(t).after(1).unwrap().powi(2) / 8.0;
+        let height = |t: &[Impact]| G * Flights::between(t).after(1).unwrap().powi(2) / 8.0;
         let times = timed(&[0.0, 0.5, 0.9], STD_S);
         let stated = rebound_height_std_m(&times, &Flights::between(&times), 1, G).unwrap();
         assert!((stated / scattered(height, STD_S) - 1.0).abs() < 0.05);

@@ -3,15 +3,17 @@
 use super::agreement::Agreement;
 use super::bounce::{bounce, rebound_height_std_m};
 use super::model::Modelled;
+use super::stretch::Stretch;
 use super::tail::Followed;
-use super::{Settings, Stretch, model, rejected, warnings};
+use super::{Settings, model, rejected, warnings};
 use crate::Error;
 use crate::fit::Estimate;
-use crate::fit::flights::{Flights, Impact as Timed};
+use crate::fit::flights::Flights;
 use crate::fit::total_time::{self, Missing, TotalTime};
+use crate::impact::Impact;
 use crate::physics::BallModel;
-use crate::report::{Drop, Estimates, Impact, Rejected, Scatter, Status, Warning, WarningCode};
-use crate::sequence::{Chain, Link};
+use crate::report::{self, Drop, Estimates, Rejected, Scatter, Warning, WarningCode};
+use crate::sequence::Chain;
 use crate::statistics::upper_median;
 use crate::timing::Timing;
 
@@ -21,10 +23,10 @@ pub(super) struct Measured {
     /// Index of the channel that it was heard on.
     pub channel: usize,
     /// The impacts in order of time.
-    pub impacts: Vec<Impact>,
+    pub impacts: Vec<report::Impact>,
     /// Evidence that it is a drop, in nats.
     pub evidence_nats: f64,
-    timed: Vec<Timed>,
+    timed: Vec<Impact>,
     bounces: usize,
     rejected: Vec<Rejected>,
     modelled: Modelled,
@@ -87,36 +89,43 @@ impl Measured {
 /// Times the impacts of a chain and fits them.
 pub(super) fn measure(
     stretch: &Stretch<'_>,
-    followed: &Followed<'_>,
+    followed: Followed<'_>,
     channel: usize,
     settings: &Settings,
 ) -> Result<Measured, Error> {
-    let timed = times(stretch, followed, settings);
-    fit(stretch, &followed.chain, timed, channel, settings)
+    let Followed {
+        chain,
+        sound,
+        timed,
+    } = followed;
+    let known = timed.filter(|_| settings.timing == Timing::Correlation);
+    let timed = || stretch.timed(&chain, &sound, settings.timing).impacts;
+    let impacts = known.unwrap_or_else(timed);
+    fit(stretch, Chain { impacts, ..chain }, channel, settings)
 }
 
-/// Fits the impacts of a chain, which have these times.
+/// Fits the impacts of a chain, whose times are as good as they get.
 pub(super) fn fit(
     stretch: &Stretch<'_>,
-    chain: &Chain,
-    timed: Vec<Timed>,
+    chain: Chain,
     channel: usize,
     settings: &Settings,
 ) -> Result<Measured, Error> {
-    let modelled = model::fitted(&timed, settings)?;
-    let mut warnings = warnings::of_chain(stretch, &timed, chain);
-    warnings.extend(warnings::of_contact(settings.contact_time_s, &timed));
+    let timed = &chain.impacts;
+    let modelled = model::fitted(timed, settings)?;
+    let mut warnings = warnings::of_chain(stretch, &chain);
+    warnings.extend(warnings::of_contact(settings.contact_time_s, timed));
     let ball = modelled.ball_model.as_ref();
     Ok(Measured {
         channel,
-        impacts: impacts(stretch, chain, &timed, ball, settings.gravity_m_per_s2),
-        evidence_nats: chain.evidence,
+        impacts: impacts(stretch, timed, ball, settings.gravity_m_per_s2),
+        evidence_nats: chain.evidence(),
         bounces: chain.heard(),
         rejected: chain.rejected.iter().map(rejected).collect(),
         modelled,
         warnings,
         given: None,
-        timed,
+        timed: chain.impacts,
     })
 }
 
@@ -131,7 +140,7 @@ pub(super) struct ByHeight {
 
 /// What follows from the height of release, for flights of this ratio.
 pub(super) fn by_height(
-    timed: &[Timed],
+    timed: &[Impact],
     flights: &Flights,
     ratio: f64,
     height_m: f64,
@@ -161,34 +170,6 @@ pub(super) fn by_height(
     })
 }
 
-/// The heard impacts timed below a sample; those inferred stay where their neighbours put them.
-fn times(stretch: &Stretch<'_>, followed: &Followed<'_>, settings: &Settings) -> Vec<Timed> {
-    let chain = &followed.chain;
-    let known = followed.timed.as_ref();
-    let known = known.filter(|_| settings.timing == Timing::Correlation);
-    let refined = known.map_or_else(
-        || stretch.timed(chain, &followed.sound, settings.timing).times,
-        Vec::clone,
-    );
-    let mut refined = refined.into_iter();
-    let timed = chain
-        .links
-        .iter()
-        .map(|link| match link.event.and_then(|_| refined.next()) {
-            Some(t) => Timed {
-                time_s: stretch.start_s + t.time_s,
-                std_s: t.std_s,
-                heard: true,
-            },
-            None => Timed {
-                time_s: link.time_s,
-                std_s: 0.0,
-                heard: false,
-            },
-        });
-    timed.collect()
-}
-
 pub(super) fn estimates(
     ratio: Option<Estimate>,
     total: Option<TotalTime>,
@@ -202,48 +183,34 @@ pub(super) fn estimates(
     }
 }
 
-fn median_std(timed: &[Timed]) -> Option<f64> {
-    upper_median(timed.iter().filter(|t| t.heard).map(|t| t.std_s))
+fn median_std(timed: &[Impact]) -> Option<f64> {
+    upper_median(timed.iter().filter(|t| t.is_heard()).map(|t| t.std_s))
 }
 
 fn impacts(
     stretch: &Stretch<'_>,
-    chain: &Chain,
-    timed: &[Timed],
+    timed: &[Impact],
     ball: Option<&BallModel>,
     gravity: f64,
-) -> Vec<Impact> {
+) -> Vec<report::Impact> {
     let flights = &Flights::between(timed);
-    let status = |link: &Link| match (link.event, link.doubtful) {
-        (None, _) => Status::Inferred,
-        (Some(_), true) => Status::Doubtful,
-        (Some(_), false) => Status::Heard,
+    let impact = |(i, t): (usize, &Impact)| {
+        let flight = flights.after(i);
+        let before = i.checked_sub(1).and_then(|i| flights.after(i));
+        let heard = t.is_heard().then_some(t);
+        report::Impact {
+            time_s: t.time_s,
+            time_std_s: heard.map(|t| t.std_s),
+            level_db: heard.and_then(|t| level_db(stretch, t.time_s)),
+            interval_s: flight,
+            ratio: flight.zip(before).map(|(now, before)| now / before),
+            rebound_height_m: flight.map(|t| gravity * t * t / 8.0),
+            rebound_height_std_m: rebound_height_std_m(timed, flights, i, gravity),
+            bounce: bounce(timed, flights, i, ball, gravity),
+            status: t.status,
+        }
     };
-    chain
-        .links
-        .iter()
-        .zip(timed)
-        .enumerate()
-        .map(|(i, (link, t))| {
-            let flight = flights.after(i);
-            let before = i.checked_sub(1).and_then(|i| flights.after(i));
-            Impact {
-                time_s: t.time_s,
-                time_std_s: t.heard.then_some(t.std_s),
-                level_db: if t.heard {
-                    level_db(stretch, t.time_s)
-                } else {
-                    None
-                },
-                interval_s: flight,
-                ratio: flight.zip(before).map(|(now, before)| now / before),
-                rebound_height_m: flight.map(|t| gravity * t * t / 8.0),
-                rebound_height_std_m: rebound_height_std_m(timed, flights, i, gravity),
-                bounce: bounce(timed, flights, i, ball, gravity),
-                status: status(link),
-            }
-        })
-        .collect()
+    timed.iter().enumerate().map(impact).collect()
 }
 
 /// The sound of an impact is at its loudest within this many seconds before and after its onset.
@@ -251,7 +218,9 @@ const LOUDEST_WITHIN_S: (f64, f64) = (0.5e-3, 4e-3);
 
 /// Peak of the samples of an impact in dB below full scale; none in silence.
 fn level_db(stretch: &Stretch<'_>, time_s: f64) -> Option<f64> {
-    let sound = stretch.between(time_s - LOUDEST_WITHIN_S.0, time_s + LOUDEST_WITHIN_S.1);
+    let sound = stretch
+        .sound
+        .between(time_s - LOUDEST_WITHIN_S.0, time_s + LOUDEST_WITHIN_S.1);
     let peak = sound.iter().map(|x| x.abs()).fold(0.0, f32::max);
     (peak > 0.0).then(|| 20.0 * f64::from(peak).log10())
 }
@@ -260,7 +229,7 @@ fn level_db(stretch: &Stretch<'_>, time_s: f64) -> Option<f64> {
 impl Measured {
     /// A drop of one impact of which nothing is known but its evidence.
     pub(super) fn with_evidence(evidence_nats: f64) -> Self {
-        let impact = Impact {
+        let impact = report::Impact {
             time_s: 1.0,
             time_std_s: None,
             level_db: None,
@@ -268,8 +237,8 @@ impl Measured {
             ratio: None,
             rebound_height_m: None,
             rebound_height_std_m: None,
-            bounce: crate::report::Bounce::default(),
-            status: Status::Heard,
+            bounce: report::Bounce::default(),
+            status: report::Status::Heard,
         };
         Self {
             channel: 0,

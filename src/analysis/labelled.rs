@@ -1,13 +1,14 @@
 //! Drops whose impacts a person set: they are fitted as they are.
 
+use super::Settings;
 use super::drop::{Measured, fit};
-use super::{Settings, Stretch};
+use super::stretch::Stretch;
 use crate::Error;
-use crate::detect;
-use crate::fit::flights::Impact as Timed;
+use crate::impact::Impact;
 use crate::report::labels::Marked;
-use crate::report::{Analysis, Status, Warning, WarningCode};
-use crate::sequence::{Chain, Link};
+use crate::report::{Analysis, Warning, WarningCode};
+use crate::sequence::Chain;
+use crate::signal::sound::Sound;
 use crate::units::real;
 
 /// Impacts with a ratio of flights.
@@ -34,11 +35,8 @@ pub fn analyze_labelled<C: AsRef<[f32]>>(
     let stretches: Vec<Stretch<'_>> = channels
         .iter()
         .map(|samples| Stretch {
-            samples: samples.as_ref(),
-            sample_rate_hz,
-            start_s: 0.0,
+            sound: Sound::from_start(samples.as_ref(), sample_rate_hz),
             listened_from_s: 0.0,
-            hop_s: detect::Settings::default().hop_s,
         })
         .collect();
     let by_loudness = |a: &usize, b: &usize| {
@@ -54,7 +52,7 @@ pub fn analyze_labelled<C: AsRef<[f32]>>(
         .iter()
         .map(|d| measured(stretch, d, channel, settings));
     let fitted = fitted.collect::<Result<Vec<Measured>, Error>>()?;
-    let end_s = stretch.end_s();
+    let end_s = stretch.sound.end_s();
     let drops = fitted.into_iter().map(|m| m.until(end_s, settings));
     Ok((
         channel,
@@ -73,7 +71,7 @@ fn measured(
     channel: usize,
     settings: &Settings,
 ) -> Result<Measured, Error> {
-    let end_s = stretch.end_s();
+    let end_s = stretch.sound.end_s();
     if let Some(late) = marked.iter().find(|m| m.time_s >= end_s) {
         return Err(Error::Line {
             line: late.line,
@@ -83,16 +81,14 @@ fn measured(
             ),
         });
     }
-    let link = |(i, m): (usize, &Marked)| Link {
-        event: (m.status != Status::Inferred).then_some(i),
+    let impact = |m: &Marked| Impact {
         time_s: m.time_s,
-        jitter_s: m.std_s,
-        gain: 0.0,
-        doubtful: m.status == Status::Doubtful,
+        std_s: m.std_s,
+        status: m.status,
+        nats: f64::INFINITY,
     };
     let chain = Chain {
-        links: marked.iter().enumerate().map(link).collect(),
-        evidence: f64::INFINITY,
+        impacts: marked.iter().map(impact).collect(),
         rejected: Vec::new(),
     };
     if chain.heard() < FEWEST {
@@ -104,13 +100,7 @@ fn measured(
             ),
         });
     }
-    let timed = |m: &Marked| Timed {
-        time_s: m.time_s,
-        std_s: m.std_s,
-        heard: m.status != Status::Inferred,
-    };
-    let timed: Vec<Timed> = marked.iter().map(timed).collect();
-    let mut measured = fit(stretch, &chain, timed, channel, settings)?;
+    let mut measured = fit(stretch, chain, channel, settings)?;
     measured.given = Some(note(marked));
     Ok(measured)
 }
@@ -127,10 +117,10 @@ fn note(marked: &[Marked]) -> Warning {
 
 /// By how much the impacts are louder than the channel at large: the mean of ln(peak/rms).
 fn standing_out(stretch: &Stretch<'_>, drops: &[Vec<Marked>]) -> f64 {
-    let energy: f64 = stretch.samples.iter().map(|x| f64::from(x * x)).sum();
-    let rms = (energy / real(stretch.samples.len()).max(1.0)).sqrt();
+    let energy: f64 = stretch.sound.samples.iter().map(|x| f64::from(x * x)).sum();
+    let rms = (energy / real(stretch.sound.samples.len()).max(1.0)).sqrt();
     let peak = |m: &Marked| {
-        let sound = stretch.between(m.time_s, m.time_s + SOUND_S);
+        let sound = stretch.sound.between(m.time_s, m.time_s + SOUND_S);
         sound.iter().map(|x| x.abs()).fold(0.0, f32::max)
     };
     let marked = drops.iter().flatten();

@@ -10,6 +10,7 @@ mod labelled;
 mod listener;
 mod model;
 mod scene;
+mod stretch;
 mod tail;
 mod warnings;
 
@@ -18,67 +19,8 @@ pub use labelled::analyze_labelled;
 pub use listener::Listener;
 
 use crate::Error;
-use crate::detect::Candidate;
 use crate::report::{Analysis, RejectReason, Rejected};
-use crate::sequence::{self, Chain, Event, Reason};
-use crate::signal::whiten::Whitened;
-use crate::timing::{Refined, Timed, Timing, refine};
-use crate::units::{real, samples_in};
-
-/// Standard error of a time on the detector's grid, in hops: a uniform error of one hop either way.
-const GRID_ERROR: f64 = 0.58;
-
-/// The stretch of a channel that is analyzed. All times outside it count from the start of the recording.
-#[derive(Debug, Clone, Copy)]
-struct Stretch<'a> {
-    samples: &'a [f32],
-    sample_rate_hz: f64,
-    start_s: f64,
-    /// Where listening began; the stretch may begin later.
-    listened_from_s: f64,
-    /// The grid of the detector.
-    hop_s: f64,
-}
-
-impl<'a> Stretch<'a> {
-    fn end_s(&self) -> f64 {
-        self.start_s + real(self.samples.len()) / self.sample_rate_hz
-    }
-
-    /// Candidates, whose times count from the start of the stretch, as events of the recording.
-    fn events(&self, candidates: &[Candidate]) -> Vec<Event> {
-        let event = |c: &Candidate| Event {
-            time_s: self.start_s + c.time_s,
-            jitter_s: c.jitter_s,
-            strength: c.strength,
-        };
-        candidates.iter().map(event).collect()
-    }
-
-    /// The sound that a chain is timed in.
-    fn whitened(&self, chain: &Chain) -> Whitened<'a> {
-        let (first_s, last_s) = chain.span_s();
-        let span_s = (first_s - self.start_s, last_s - self.start_s);
-        Whitened::around(self.samples, self.sample_rate_hz, span_s)
-    }
-
-    /// The heard impacts of a chain, in seconds of the stretch.
-    fn timed(&self, chain: &Chain, sound: &Whitened<'_>, timing: Timing) -> Refined {
-        let heard = chain.links.iter().filter(|l| l.event.is_some());
-        let coarse = heard.map(|l| Timed {
-            time_s: l.time_s - self.start_s,
-            std_s: l.jitter_s.max(GRID_ERROR * self.hop_s),
-        });
-        let coarse: Vec<Timed> = coarse.collect();
-        refine(sound, &coarse, timing)
-    }
-
-    /// The samples between two times of the recording, as far as they are in the stretch.
-    fn between(&self, from_s: f64, to_s: f64) -> &'a [f32] {
-        let at = |t: f64| samples_in(t - self.start_s, self.sample_rate_hz).min(self.samples.len());
-        &self.samples[at(from_s)..at(to_s).max(at(from_s))]
-    }
-}
+use crate::sequence::{self, Reason};
 
 /// Listens to one channel: samples of full scale ±1 at a rate in Hz.
 ///

@@ -3,9 +3,9 @@
 use super::Settings;
 use crate::Error;
 use crate::fit::Estimate;
-use crate::fit::flights::Impact;
 use crate::fit::ladder::{Climb, Inputs, climb};
 use crate::fit::model::{Budget, Parameter};
+use crate::impact::Impact;
 use crate::physics::priors::{CONTACT_RELATIVE_STD, Known};
 use crate::physics::{
     Air, BallModel, ContactErrors, DRAG_RELATIVE_STD, FlightLaw, Oscillator, ParameterErrors,

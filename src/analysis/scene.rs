@@ -1,21 +1,24 @@
 //! A stretch of sound in which something happens: which channel hears it best, and the drops in it.
 
 use super::drop::{self, Measured};
+use super::stretch::Stretch;
 use super::tail::{self, Followed};
-use super::{Settings, Stretch, rejected};
+use super::{Settings, rejected};
 use crate::Error;
-use crate::detect::{self, Candidate, Detector, clarity};
+use crate::detect::{Detector, clarity};
+use crate::event::Event;
 use crate::report::Rejected;
-use crate::sequence::{self, Chain, Event, Found, is_echo_of};
-use crate::units::real;
+use crate::sequence::{self, Chain, Found, is_echo_of};
+use crate::signal::sound::Sound;
+use crate::units::frame_time_s;
 
 /// Where a scene is in its recording.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     /// Its first frame.
-    pub first: usize,
+    pub first: u64,
     /// First frame of the recording that was listened to.
-    pub listened_from: usize,
+    pub listened_from: u64,
     /// Whether it goes on, because there was no room for all of it.
     pub cut: bool,
 }
@@ -51,30 +54,29 @@ pub(super) fn hear(
     detector: &Detector,
     settings: &Settings,
 ) -> Result<Heard, Error> {
-    let candidates: Vec<Vec<Candidate>> = channels.iter().map(|c| detector.candidates(c)).collect();
-    let clarities: Vec<f64> = candidates.iter().map(|c| clarity(c)).collect();
-    let channel = clearest(&clarities);
     let rate = detector.sample_rate_hz();
-    let stretch = Stretch {
+    let sound = |channel: usize| Sound {
         samples: channels[channel],
         sample_rate_hz: rate,
-        start_s: real(bounds.first) / rate,
-        listened_from_s: real(bounds.listened_from) / rate,
-        hop_s: detect::Settings::default().hop_s,
+        start_s: frame_time_s(bounds.first, rate),
     };
-    let events = stretch.events(&candidates[channel]);
-    let balls = sequence::Settings::default();
-    let found = sequence::find(&events, &balls);
+    let heard = (0..channels.len()).map(|channel| detector.events(&sound(channel)));
+    let mut heard: Vec<Vec<Event>> = heard.collect();
+    let clarities: Vec<f64> = heard.iter().map(|events| clarity(events)).collect();
+    let channel = clearest(&clarities);
+    let stretch = Stretch {
+        sound: sound(channel),
+        listened_from_s: frame_time_s(bounds.listened_from, rate),
+    };
+    let events = heard.swap_remove(channel);
+    let found = sequence::find(&events);
     let edge = Edge::of(&stretch, bounds.cut, &found);
     let rejected = rejected_before(edge.settled_s, told_s, &events, &found);
     let weak = weak_before(edge.settled_s, &events, &found);
-    let mut all = events.clone();
     let new = found.drops.into_iter();
     let new = new.filter(|chain| !edge.waits(chain) && !is_told(chain, told_s));
-    let mut followed: Vec<Followed<'_>> = new
-        .map(|chain| tail::follow(&stretch, chain, &mut all, &balls))
-        .collect();
-    followed.sort_by(|a, b| b.chain.evidence.total_cmp(&a.chain.evidence));
+    let mut followed: Vec<Followed<'_>> = new.map(|chain| tail::follow(&stretch, chain)).collect();
+    followed.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
     let mut kept: Vec<Followed<'_>> = Vec::new();
     for new in followed {
         if !kept.iter().any(|k| is_echo_of(&new.chain, &k.chain)) {
@@ -83,7 +85,7 @@ pub(super) fn hear(
     }
     kept.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
     let drops = kept
-        .iter()
+        .into_iter()
         .map(|followed| drop::measure(&stretch, followed, channel, settings));
     let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
     Ok(Heard {
@@ -126,9 +128,9 @@ const LEAD_S: f64 = 1.0;
 
 impl Edge {
     fn of(stretch: &Stretch<'_>, cut: bool, found: &Found) -> Self {
-        let end_s = stretch.end_s();
+        let end_s = stretch.sound.end_s();
         let mut edge = Self {
-            oldest_s: 0.5 * (stretch.start_s + end_s),
+            oldest_s: 0.5 * (stretch.sound.start_s + end_s),
             end_s,
             settled_s: f64::INFINITY,
             torn: 0,
@@ -152,7 +154,7 @@ impl Edge {
     /// Whether a drop may go on past the cut.
     fn is_open(&self, chain: &Chain) -> bool {
         let last_s = chain.span_s().1;
-        let before_s = chain.links.iter().rev().nth(1).map_or(0.0, |l| l.time_s);
+        let before_s = chain.impacts.iter().rev().nth(1).map_or(0.0, |i| i.time_s);
         last_s + OPEN_FLIGHTS * (last_s - before_s) + OPEN_S > self.end_s
     }
 
@@ -172,8 +174,8 @@ fn is_known(time_s: f64, told_s: &[f64]) -> bool {
 
 /// Whether a chain is the later part of a drop that was told already.
 fn is_told(chain: &Chain, told_s: &[f64]) -> bool {
-    let known = chain.links.iter().filter(|l| is_known(l.time_s, told_s));
-    2 * known.count() > chain.links.len()
+    let known = chain.impacts.iter().filter(|i| is_known(i.time_s, told_s));
+    2 * known.count() > chain.impacts.len()
 }
 
 fn rejected_before(
@@ -195,8 +197,8 @@ fn rejected_before(
 /// Events before a time that are neither an impact nor named.
 fn weak_before(settled_s: f64, events: &[Event], found: &Found) -> usize {
     let named = |chain: &Chain| {
-        let links = chain.links.iter().filter(|l| l.event.is_some());
-        let times = links.map(|l| l.time_s);
+        let heard = chain.impacts.iter().filter(|i| i.is_heard());
+        let times = heard.map(|i| i.time_s);
         let rejected = chain.rejected.iter().map(|r| r.time_s);
         times.chain(rejected).filter(|&t| t < settled_s).count()
     };

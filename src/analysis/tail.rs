@@ -3,11 +3,12 @@
 //! The energy no longer rises where the last impact still rings. So once a chain is known, the late part of it is
 //! searched again for the sound of its impacts, and the chain is followed there anew by the same physics.
 
-use super::Stretch;
+use super::stretch::Stretch;
 use crate::detect::matched;
-use crate::sequence::{self, Chain, Event};
+use crate::impact::Impact;
+use crate::sequence::{self, Chain};
 use crate::signal::whiten::Whitened;
-use crate::timing::{Refined, Timed, Timing};
+use crate::timing::{Refined, Timing};
 
 /// Where flights are shorter than this, in seconds, the sound of one impact reaches into the next.
 const SHORT_FLIGHT_S: f64 = 0.06;
@@ -28,41 +29,37 @@ pub(super) struct Followed<'a> {
     pub chain: Chain,
     /// The sound that it is timed in, whitened by the noise around the chain as it was first.
     pub sound: Whitened<'a>,
-    /// Its heard impacts by correlation, in seconds of the stretch: the end was followed from there, and it is the same
-    /// chain as before. None where it grew, or there was no end to follow.
-    pub timed: Option<Vec<Timed>>,
+    /// Its impacts, those heard by correlation: the end was followed from there, and it is the same chain as before. None
+    /// where it grew, or there was no end to follow.
+    pub timed: Option<Vec<Impact>>,
 }
 
-/// The chain with its end followed by the sound of its impacts, if that finds more; new events are added to `events`.
-pub(super) fn follow<'a>(
-    stretch: &Stretch<'a>,
-    chain: Chain,
-    events: &mut Vec<Event>,
-    settings: &sequence::Settings,
-) -> Followed<'a> {
+/// The chain with its end followed by the sound of its impacts, if that finds more.
+pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
     let sound = stretch.whitened(&chain);
-    let Some((first, region_s)) = region(&chain, stretch.end_s()) else {
+    let Some((first, region_s)) = region(&chain, stretch.sound.end_s()) else {
         return Followed {
             chain,
             sound,
             timed: None,
         };
     };
-    let Refined { times, template } = stretch.timed(&chain, &sound, Timing::Correlation);
-    let onsets: Vec<f64> = times.iter().map(|t| t.time_s).collect();
-    let inside_s = (region_s.0 - stretch.start_s, region_s.1 - stretch.start_s);
-    let flights = onsets.windows(2).map(|w| w[1] - w[0]);
+    let Refined {
+        impacts: timed,
+        template,
+    } = stretch.timed(&chain, &sound, Timing::Correlation);
+    let heard_s = timed.iter().filter(|i| i.is_heard()).map(|i| i.time_s);
+    let heard_s: Vec<f64> = heard_s.collect();
+    let flights = heard_s.windows(2).map(|w| w[1] - w[0]);
     let shortest_s = flights.fold(f64::INFINITY, f64::min);
-    let found = template.and_then(|t| matched::candidates(&sound, &t, shortest_s, inside_s));
-    let longer = found.and_then(|found| {
-        let late = stretch.events(&found);
-        let known = known(&chain, stretch.start_s, &onsets);
-        let end = sequence::follow_again(&late, &known, settings)?;
-        joined(&chain, first, &end, late, events)
+    let found = template.and_then(|t| matched::events(&sound, &t, shortest_s, region_s));
+    let longer = found.and_then(|late| {
+        let end = sequence::follow_again(&late, &known(&chain, &timed))?;
+        joined(&chain, first, &end)
     });
     let (chain, timed) = match longer {
         Some(chain) => (chain, None),
-        None => (chain, Some(times)),
+        None => (chain, Some(timed)),
     };
     Followed {
         chain,
@@ -77,33 +74,30 @@ const HEARD_OFF_S: f64 = 0.4e-3;
 const INFERRED_OFF: f64 = 0.02;
 
 /// The times of all impacts of a chain, those heard refined, and how far off they may be.
-fn known(chain: &Chain, start_s: f64, onsets: &[f64]) -> Vec<(f64, f64)> {
-    let mut onsets = onsets.iter();
+fn known(chain: &Chain, timed: &[Impact]) -> Vec<(f64, f64)> {
     let mut last_s = f64::NEG_INFINITY;
-    let times = chain.links.iter().map(|link| {
-        let off_s = (INFERRED_OFF * (link.time_s - last_s)).min(INFERRED_OFF);
-        last_s = link.time_s;
-        match link.event.and_then(|_| onsets.next()) {
-            Some(onset) => (start_s + onset, HEARD_OFF_S),
-            None => (link.time_s, off_s),
-        }
+    let times = chain.impacts.iter().zip(timed).map(|(seen, timed)| {
+        let off_s = (INFERRED_OFF * (seen.time_s - last_s)).min(INFERRED_OFF);
+        last_s = seen.time_s;
+        let off_s = if timed.is_heard() { HEARD_OFF_S } else { off_s };
+        (timed.time_s, off_s)
     });
     times.collect()
 }
 
-/// The first link of the late part, and the time from just before it to well past the end.
+/// The first impact of the late part, and the time from just before it to well past the end.
 fn region(chain: &Chain, recording_end_s: f64) -> Option<(usize, (f64, f64))> {
-    let flight = |i: usize| chain.links[i + 1].time_s - chain.links[i].time_s;
-    let flights = chain.links.len().checked_sub(1)?;
+    let flight = |i: usize| chain.impacts[i + 1].time_s - chain.impacts[i].time_s;
+    let flights = chain.impacts.len().checked_sub(1)?;
     let short = (0..flights)
         .find(|&i| flight(i) < SHORT_FLIGHT_S)
         .unwrap_or(flights);
     let first = short.min(flights.checked_sub(LEAD)?).saturating_sub(LEAD);
-    let last_s = chain.links[flights].time_s;
+    let last_s = chain.impacts[flights].time_s;
     let ratio = (flight(flights - 1) / flight(first))
         .powf(1.0 / crate::units::real((flights - 1 - first).max(1)));
     let left_s = flight(flights - 1) * ratio / (1.0 - ratio).max(0.01);
-    let start_s = chain.links[first].time_s - 0.2 * flight(first);
+    let start_s = chain.impacts[first].time_s - 0.2 * flight(first);
     let end_s = (last_s + PAST_END * left_s + SHORT_FLIGHT_S)
         .min(recording_end_s)
         .min(start_s + LONGEST_REGION_S);
@@ -111,49 +105,21 @@ fn region(chain: &Chain, recording_end_s: f64) -> Option<(usize, (f64, f64))> {
 }
 
 /// The early part of the old chain and the new late part, if more was heard that way.
-fn joined(
-    chain: &Chain,
-    first: usize,
-    end: &Chain,
-    late: Vec<Event>,
-    events: &mut Vec<Event>,
-) -> Option<Chain> {
-    let [first_new, second_new, ..] = end.links.as_slice() else {
+fn joined(chain: &Chain, first: usize, end: &Chain) -> Option<Chain> {
+    let [first_new, second_new, ..] = end.impacts.as_slice() else {
         return None;
     };
     // Whatever of the old chain is nearer to the first new impact than half its flight is the same impact.
     let begin_s = first_new.time_s - 0.5 * (second_new.time_s - first_new.time_s);
-    let early = chain
-        .links
-        .iter()
-        .take_while(|l| l.time_s < begin_s)
-        .copied();
-    let offset = events.len();
-    let new = end.links.iter().map(|l| sequence::Link {
-        event: l.event.map(|i| offset + i),
-        ..*l
-    });
-    let links: Vec<sequence::Link> = early.chain(new).collect();
-    let heard = links.iter().filter(|l| l.event.is_some()).count();
-    let kept = links
-        .iter()
-        .take(first)
-        .zip(&chain.links)
-        .all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_CHAIN_S);
-    if heard <= chain.heard() || !kept {
-        return None;
-    }
-    events.extend(late);
-    let near = |time_s: f64| links.iter().any(|l| (l.time_s - time_s).abs() < SAME_S);
-    let rejected = chain
-        .rejected
-        .iter()
-        .filter(|r| !near(r.time_s))
-        .copied()
-        .collect();
-    Some(Chain {
-        evidence: links.iter().map(|l| l.gain).sum(),
-        links,
-        rejected,
-    })
+    let early = chain.impacts.iter().take_while(|i| i.time_s < begin_s);
+    let impacts: Vec<Impact> = early.chain(&end.impacts).copied().collect();
+    let mut pairs = impacts.iter().zip(&chain.impacts).take(first);
+    let kept = pairs.all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_CHAIN_S);
+    let near = |time_s: f64| impacts.iter().any(|i| (i.time_s - time_s).abs() < SAME_S);
+    let rejected = chain.rejected.iter().filter(|r| !near(r.time_s));
+    let joined = Chain {
+        rejected: rejected.copied().collect(),
+        impacts,
+    };
+    (kept && joined.heard() > chain.heard()).then_some(joined)
 }

@@ -1,9 +1,10 @@
 //! What a user should know about a result, and what to do about it.
 
-use super::Stretch;
+use super::stretch::Stretch;
 use crate::fit::Estimate;
-use crate::fit::flights::{Flights, Impact as Timed};
+use crate::fit::flights::Flights;
 use crate::fit::total_time::{Missing, TotalTime, left_s};
+use crate::impact::{Impact, Status};
 use crate::report::{Warning, WarningCode};
 use crate::sequence::Chain;
 
@@ -79,9 +80,9 @@ pub(super) fn of_memory(left_out: usize, torn: usize) -> Vec<Warning> {
 }
 
 /// What the impacts of a drop call for.
-pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) -> Vec<Warning> {
+pub(super) fn of_chain(stretch: &Stretch<'_>, chain: &Chain) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    let heard = chain.heard();
+    let (timed, heard) = (&chain.impacts, chain.heard());
     if heard < FEW_IMPACTS {
         let message = format!(
             "only {heard} impacts: the error of e rests on {} ratios. Drop from higher",
@@ -89,7 +90,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
         );
         warnings.push(Warning::new(WarningCode::FewImpacts, message));
     }
-    let inferred = chain.links.len() - heard;
+    let inferred = timed.len() - heard;
     if inferred > 0 {
         let message = format!(
             "{inferred} of {} impacts not heard but inferred from their neighbours",
@@ -97,11 +98,8 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
         );
         warnings.push(Warning::new(WarningCode::Inferred, message));
     }
-    let doubtful = chain
-        .links
-        .iter()
-        .filter(|l| l.event.is_some() && l.doubtful)
-        .count();
+    let doubtful = timed.iter().filter(|i| i.status == Status::Doubtful);
+    let doubtful = doubtful.count();
     if doubtful > 0 {
         let message =
             format!("{doubtful} of {heard} impacts doubtful: noise offers sounds as strong nearby");
@@ -109,7 +107,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
     }
     let clipped = timed
         .iter()
-        .filter(|t| t.heard && is_clipped(stretch, t.time_s))
+        .filter(|t| t.is_heard() && is_clipped(stretch, t.time_s))
         .count();
     if clipped > 0 {
         let message = format!("{clipped} impacts reach full scale: lower the recording level");
@@ -126,7 +124,7 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, timed: &[Timed], chain: &Chain) ->
 }
 
 /// A contact time that was given, where two impacts are nearer than that.
-pub(super) fn of_contact(given_s: Option<f64>, timed: &[Timed]) -> Option<Warning> {
+pub(super) fn of_contact(given_s: Option<f64>, timed: &[Impact]) -> Option<Warning> {
     let apart_s = timed.windows(2).map(|w| w[1].time_s - w[0].time_s);
     let shortest_s = apart_s.fold(f64::INFINITY, f64::min);
     let given_s = given_s.filter(|&given_s| given_s >= shortest_s)?;
@@ -140,13 +138,13 @@ pub(super) fn of_contact(given_s: Option<f64>, timed: &[Timed]) -> Option<Warnin
 }
 
 fn is_clipped(stretch: &Stretch<'_>, time_s: f64) -> bool {
-    let sound = stretch.between(time_s - 1e-3, time_s + 5e-3);
+    let sound = stretch.sound.between(time_s - 1e-3, time_s + 5e-3);
     sound.iter().filter(|x| x.abs() >= CLIPPED).count() >= CLIPPED_SAMPLES
 }
 
 /// The end of a drop whose flights have this ratio, in a recording that ends at `end_s`.
 pub(super) fn of_end(
-    timed: &[Timed],
+    timed: &[Impact],
     flights: &Flights,
     ratio: Option<Estimate>,
     end_s: f64,

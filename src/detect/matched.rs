@@ -1,11 +1,11 @@
-//! Candidates by the sound of this ball: what the energy no longer shows, because the last impact still rings or the
+//! Events by the sound of this ball: what the energy no longer shows, because the last impact still rings or the
 //! echo comes back, the shape of an impact does.
 //!
 //! In the whitened recording the best match of the drop's template, ring and echo included, is sought, taken out whole, and the
 //! next best match sought in what is left, until nothing stands out of the noise.
 
-use super::Candidate;
 use super::pursuit::{Pattern, Residue};
+use crate::event::Event;
 use crate::linalg::dot;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
@@ -35,29 +35,30 @@ const LEAST_JITTER_S: f64 = 0.05e-3;
 
 /// Matches with a drop's template in its whitened sound, in a region of the recording, in order of time.
 ///
-/// No flight of the drop is known to be shorter than `shortest_s`; `region_s` is where to look. The strength of a match is its
-/// size in standard deviations of the noise, which falls with the ball's speed as loudness does. None where the region is cut
-/// by the end of the recording.
+/// No flight of the drop is known to be shorter than `shortest_s`; `region_s` is where to look. A match of z
+/// standard deviations of the noise is z²/2 nats; z falls with the ball's speed as loudness does. None where the region is
+/// cut by the end of the recording.
 #[must_use]
-pub fn candidates(
+pub fn events(
     sound: &Whitened<'_>,
     template: &Template,
     shortest_s: f64,
     region_s: (f64, f64),
-) -> Option<Vec<Candidate>> {
+) -> Option<Vec<Event>> {
     let rate = sound.sample_rate_hz();
     let (pattern, before) = pattern(template, rate, shortest_s);
-    let start = samples_in(region_s.0, rate);
-    let end = samples_in(region_s.1, rate).min(sound.range().end);
+    let recorded = *sound.sound();
+    let start = recorded.sample_at(region_s.0);
+    let end = recorded.sample_at(region_s.1).min(sound.range().end);
     let sound = sound.between(start, end)?;
     let most = whole(PER_SECOND * (region_s.1 - region_s.0));
     let apart = samples_in(APART_S, rate).max(1);
     let onset = real(start + before) + template.onset(rate);
-    let mut found: Vec<Candidate> = Residue::new(&sound, &pattern)?
+    let mut found: Vec<Event> = Residue::new(&sound, &pattern)?
         .take_out(WEAKEST, most, apart)
         .into_iter()
-        .map(|(position, z)| Candidate {
-            time_s: (onset + position) / rate,
+        .map(|(position, z)| Event {
+            time_s: recorded.time_s(onset + position),
             jitter_s: (JITTER_S / z).max(LEAST_JITTER_S),
             strength: 0.5 * z * z,
         })
@@ -97,6 +98,7 @@ fn matched_length(shape: &[f64], before: usize, rate: f64, most_s: f64) -> usize
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
+    use crate::signal::sound::Sound;
     use crate::signal::template::aligned::Cut;
 
     const RATE: f64 = 44_100.0;
@@ -149,9 +151,9 @@ mod tests {
         known.extend([(0.86, 0.24), (0.89, 0.23)]);
         let late = [(1.000, 0.2), (1.009, 0.15), (1.0171, 0.12), (1.0243, 0.1)];
         let samples = recording(&[&known[..], &late].concat());
-        let sound = Whitened::around(&samples, RATE, (0.3, 0.89));
+        let sound = Whitened::around(Sound::from_start(&samples, RATE), (0.3, 0.89));
         let template = template(&sound, &known[..6]);
-        let found = candidates(&sound, &template, 0.03, (0.95, 1.1)).unwrap();
+        let found = events(&sound, &template, 0.03, (0.95, 1.1)).unwrap();
         let mut strongest = found.clone();
         strongest.sort_by(|a, b| b.strength.total_cmp(&a.strength));
         let mut times: Vec<f64> = strongest[..4].iter().map(|c| c.time_s).collect();

@@ -1,7 +1,7 @@
 //! What each bounce says of ln e, made linear in the times and in the parameters of the model.
 
-use super::flights::Impact;
 use super::slowing::{self, Flight, Lost, Slowing};
+use crate::impact::Impact;
 use crate::physics::priors::Known;
 
 /// A model of the intervals: constant e, and what is added to it.

@@ -1,10 +1,10 @@
 //! The fit on drops whose e, contact, drag and noises are known.
 
 use super::bounces::{Law, Terms};
-use super::flights::Impact;
 use super::kind::ModelKind;
 use super::ladder::{Choice, Inputs, climb};
 use super::model::fit;
+use crate::impact::Impact;
 use crate::physics::priors::Known;
 use crate::physics::{
     Air, FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution, RestitutionLaw,
@@ -42,11 +42,10 @@ impl Made {
         let (mut at_s, mut speed) = (0.0, 0.4 * 9.81);
         let mut impacts = Vec::new();
         for _ in 0..self.impacts {
-            impacts.push(Impact {
-                time_s: at_s + self.time_std_s * rng.normal(),
-                std_s: self.time_std_s,
-                heard: true,
-            });
+            impacts.push(Impact::heard(
+                at_s + self.time_std_s * rng.normal(),
+                self.time_std_s,
+            ));
             let hop = law.hop(speed).unwrap();
             at_s += hop.time_s + self.contact_s;
             speed = hop.landing_speed_m_per_s * self.e * (self.bounce_std * rng.normal()).exp();
@@ -253,11 +252,7 @@ fn linear_drop(e: f64, contact_s: f64, impacts: usize, rng: &mut SplitMix64) -> 
     let (mut at_s, mut speed) = (0.0, 0.3 * 9.81);
     let mut made = Vec::new();
     for _ in 0..impacts {
-        made.push(Impact {
-            time_s: at_s + 5e-6 * rng.normal(),
-            std_s: 5e-6,
-            heard: true,
-        });
+        made.push(Impact::heard(at_s + 5e-6 * rng.normal(), 5e-6));
         let Rebound::Leaves(leaving) = contact.rebound(speed).unwrap() else {
             panic!("it leaves");
         };
@@ -305,11 +300,7 @@ fn viscoelastic_spheres_are_told_from_a_power_of_the_speed_and_e_is_that_at_the_
         let (mut at_s, mut speed) = (0.0, 2.0);
         let mut impacts = Vec::new();
         for _ in 0..90 {
-            impacts.push(Impact {
-                time_s: at_s + 1e-6 * rng.normal(),
-                std_s: 1e-6,
-                heard: true,
-            });
+            impacts.push(Impact::heard(at_s + 1e-6 * rng.normal(), 1e-6));
             speed *= law.at(speed).unwrap().value() * (0.006 * rng.normal()).exp();
             at_s += 2.0 * speed / 9.81;
         }
@@ -372,11 +363,7 @@ fn a_light_ball_is_not_taken_for_a_duller_one_where_mass_and_diameter_are_given(
         let (mut at_s, mut speed) = (0.0, law.fall(height_m).unwrap().landing_speed_m_per_s);
         let mut impacts = Vec::new();
         for _ in 0..32 {
-            impacts.push(Impact {
-                time_s: at_s,
-                std_s: 1e-6,
-                heard: true,
-            });
+            impacts.push(Impact::heard(at_s, 1e-6));
             let hop = law.hop(0.93 * speed).unwrap();
             at_s += hop.time_s;
             speed = hop.landing_speed_m_per_s;

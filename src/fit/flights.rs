@@ -1,18 +1,8 @@
 //! Restitution from the ratios of successive flights.
 
 use super::Estimate;
+use crate::impact::Impact;
 use crate::units::real;
-
-/// One impact as the fit sees it.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Impact {
-    /// Seconds.
-    pub time_s: f64,
-    /// Standard error of the time in seconds.
-    pub std_s: f64,
-    /// Whether it was heard; an impact that is only inferred bounds no flight that was measured.
-    pub heard: bool,
-}
 
 /// The flights between impacts heard.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,7 +18,9 @@ impl Flights {
         let lengths = impacts
             .windows(2)
             .enumerate()
-            .filter(|(_, pair)| pair[0].heard && pair[1].heard && pair[1].time_s > pair[0].time_s)
+            .filter(|(_, pair)| {
+                pair[0].is_heard() && pair[1].is_heard() && pair[1].time_s > pair[0].time_s
+            })
             .map(|(i, pair)| (i, pair[1].time_s - pair[0].time_s))
             .collect();
         Self { lengths }
@@ -96,6 +88,7 @@ impl Flights {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::impact::Status;
 
     fn drop(first: f64, ratios: &[f64]) -> Vec<Impact> {
         let mut flight = first;
@@ -108,11 +101,7 @@ mod tests {
         }
         impacts
             .into_iter()
-            .map(|time_s| Impact {
-                time_s,
-                std_s: 1e-6,
-                heard: true,
-            })
+            .map(|time_s| Impact::heard(time_s, 1e-6))
             .collect()
     }
 
@@ -140,7 +129,7 @@ mod tests {
     #[test]
     fn an_inferred_impact_bounds_no_flight_but_keeps_its_number() {
         let mut impacts = drop(0.5, &[0.8; 8]);
-        impacts[4].heard = false;
+        impacts[4].status = Status::Inferred;
         impacts[4].time_s += 0.02;
         let flights = Flights::between(&impacts);
         assert_eq!(

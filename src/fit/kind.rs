@@ -144,8 +144,8 @@ impl ModelKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::flights::Impact;
     use crate::fit::ladder::{Choice, Inputs, climb};
+    use crate::impact::Impact;
 
     const BALL: BallParameters = BallParameters {
         restitution: 0.85,
@@ -164,13 +164,7 @@ mod tests {
             time_s += interval_s;
             time_s
         });
-        times
-            .map(|time_s| Impact {
-                time_s,
-                std_s: 1e-6,
-                heard: true,
-            })
-            .collect()
+        times.map(|time_s| Impact::heard(time_s, 1e-6)).collect()
     }
 
     #[test]

@@ -1,10 +1,10 @@
 //! The ladder of models: constant e, and what is added where the recording supports it or the user knows it.
 
 use super::bounces::Terms;
-use super::flights::Impact;
 use super::kind::{BallParameters, ModelKind};
 use super::model::{Fit, Fitted, Parameter, Rival};
 use crate::Error;
+use crate::impact::Impact;
 use crate::physics::BallModel;
 use crate::physics::priors::{CONTACT_S, DRAG_PER_S2, Known, LITTLE_DRAG_PER_S2, SPEED_EXPONENT};
 use crate::words::words;

@@ -3,12 +3,12 @@
 use statrs::distribution::{ContinuousCDF, Normal};
 
 use super::bounces::{Bounces, Terms};
-use super::flights::Impact;
 use super::least_squares::Prior;
 use super::noise::Noise;
 use super::posterior::Posterior;
 use super::state::State;
 use super::stray::{self, Strays};
+use crate::impact::Impact;
 use crate::physics::priors::Known;
 use crate::statistics::{NORMAL95, bisected};
 

@@ -4,12 +4,12 @@
 use serde::Deserialize;
 
 use super::bounces::{Bounces, Law, MOST, Terms, Values};
-use super::flights::Impact;
 use super::least_squares::{Prior, Solution, solve};
 use super::model::fit;
 use super::noise::{Noise, Sizes};
 use super::posterior::Posterior;
 use super::stray::Strays;
+use crate::impact::Impact;
 use crate::physics::priors::Known;
 
 const TABLE: &str = include_str!("../../fixtures/oracle/fit.json");
@@ -64,11 +64,7 @@ impl Row {
     }
 
     fn impacts(&self) -> Vec<Impact> {
-        let impact = |&time_s| Impact {
-            time_s,
-            std_s: self.time_std_s,
-            heard: true,
-        };
+        let impact = |&time_s| Impact::heard(time_s, self.time_std_s);
         self.times_s.iter().map(impact).collect()
     }
 

@@ -1,10 +1,10 @@
 //! A trial of times and parameters, settled by rounds of linear fits.
 
 use super::bounces::{Bounces, Law, MOST, Terms, Values};
-use super::flights::Impact;
 use super::least_squares::{Prior, Solution};
 use super::noise::{Noise, Sizes};
 use super::posterior::likeliest;
+use crate::impact::Impact;
 use crate::physics::priors::Known;
 use crate::statistics::upper_median;
 
@@ -46,7 +46,7 @@ impl<'a> State<'a> {
             .collect();
         let time_variances = (0..impacts.len())
             .map(|k| {
-                let std_s = if impacts[k].heard {
+                let std_s = if impacts[k].is_heard() {
                     impacts[k].std_s.max(LEAST_TIME_STD_S)
                 } else {
                     UNHEARD * shorter[k]
@@ -302,11 +302,7 @@ mod tests {
         let (mut time_s, mut speed) = (0.5, 2.0);
         let mut touches = Vec::new();
         for _ in 0..count {
-            touches.push(Impact {
-                time_s: time_s + std_s * rng.normal(),
-                std_s,
-                heard: true,
-            });
+            touches.push(Impact::heard(time_s + std_s * rng.normal(), std_s));
             let Rebound::Leaves(leaving) = contact.rebound(speed).unwrap() else {
                 panic!("it leaves");
             };

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
-use super::flights::{Flights, Impact};
+use super::flights::Flights;
 use super::{Estimate, student_975};
 use crate::Error;
+use crate::impact::Impact;
 use crate::physics::BounceSeries;
 use crate::units::real;
 
@@ -209,11 +210,7 @@ mod tests {
         let mut time_s = 1.0;
         (0..count)
             .map(|_| {
-                let impact = Impact {
-                    time_s,
-                    std_s: 1e-5,
-                    heard: true,
-                };
+                let impact = Impact::heard(time_s, 1e-5);
                 time_s += flight;
                 flight *= e;
                 impact

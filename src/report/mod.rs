@@ -15,6 +15,7 @@ pub mod text;
 mod warning;
 mod wrap;
 
+pub use crate::impact::Status;
 pub use model::{Given, Model, Parameters};
 pub use settings::Settings;
 pub(crate) use table::decimals;
@@ -182,19 +183,6 @@ impl Drop {
             rejected: Vec::new(),
             warnings: Vec::new(),
         }
-    }
-}
-
-words! {
-    /// Whether an impact was heard.
-    #[non_exhaustive]
-    pub enum Status {
-        /// It was.
-        Heard = "heard",
-        /// Something was heard, but chance offers as much nearby.
-        Doubtful = "doubtful",
-        /// Nothing was heard; its neighbours say that it was there.
-        Inferred = "inferred",
     }
 }
 

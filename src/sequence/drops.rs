@@ -1,69 +1,13 @@
 //! The drops of a recording: the best chains that share no event.
 
+use super::Event;
+use super::chain::{Chain, Track};
 use super::clutter::Clutter;
 use super::reasons::{self, Reason, Rejected};
 use super::reassociate::reassociated;
 use super::seeds::seeds;
 use super::track::{Scene, Step, follow};
-use super::{Event, Settings};
 use crate::units::real;
-
-/// One impact of a drop.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Link {
-    /// Index of the event; none where the impact is inferred from its neighbours.
-    pub event: Option<usize>,
-    /// Seconds from the first sample.
-    pub time_s: f64,
-    /// How far off the event's time may be, in seconds (one standard deviation); 0 where there is none.
-    pub jitter_s: f64,
-    /// What the event earned in nats.
-    pub gain: f64,
-    /// Whether chance offers events as strong so often here that this one may be none of the ball's.
-    pub doubtful: bool,
-}
-
-/// An impact is doubtful where chance offers this many events as strong in a flight.
-const DOUBTFUL_PER_FLIGHT: f64 = 10.0 / 3.0;
-
-/// A drop: one impact after another.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Chain {
-    /// The impacts in order of time.
-    pub links: Vec<Link>,
-    /// Evidence that this is a drop and no chance, in nats.
-    pub evidence: f64,
-    /// Strong events between its impacts that are none of them.
-    pub rejected: Vec<Rejected>,
-}
-
-impl Chain {
-    pub(super) fn new(steps: &[Step]) -> Self {
-        Self {
-            links: links(steps),
-            evidence: steps.iter().map(|s| s.gain).sum(),
-            rejected: Vec::new(),
-        }
-    }
-
-    /// Indices of the events that are its impacts.
-    pub(super) fn events(&self) -> impl Iterator<Item = usize> + '_ {
-        self.links.iter().filter_map(|l| l.event)
-    }
-
-    /// How many of its impacts were heard.
-    #[must_use]
-    pub fn heard(&self) -> usize {
-        self.events().count()
-    }
-
-    /// Seconds of the first and last impact.
-    #[must_use]
-    pub fn span_s(&self) -> (f64, f64) {
-        let at = |link: Option<&Link>| link.map_or(0.0, |l| l.time_s);
-        (at(self.links.first()), at(self.links.last()))
-    }
-}
 
 /// What was found among the events.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -72,10 +16,10 @@ pub struct Found {
     pub drops: Vec<Chain>,
     /// Strong events outside any drop.
     pub rejected: Vec<Rejected>,
-    /// How many weaker events were left without a word each.
-    pub weak: usize,
 }
 
+/// Evidence a chain needs to be a drop, in nats: chance rarely makes one (none in 24 recordings without a drop).
+const LEAST_EVIDENCE: f64 = 12.0;
 /// Fewest impacts heard that make a drop: three flights, whose two ratios agree.
 const FEWEST: usize = 4;
 /// Over a whole drop the flights shrink at least to this share: ticking clocks and voices do not.
@@ -87,55 +31,56 @@ const GREATEST_RATIO: f64 = 0.985;
 
 /// Finds the drops among events in order of time.
 #[must_use]
-pub fn find(events: &[Event], settings: &Settings) -> Found {
+pub fn find(events: &[Event]) -> Found {
     if events.is_empty() {
         return Found::default();
     }
     let clutter = Clutter::new(events);
-    let scene = Scene::new(events, &clutter, settings);
+    let scene = Scene::new(events, &clutter);
     let mut taken = vec![false; events.len()];
     let mut explained = vec![false; events.len()];
-    let mut drops: Vec<Chain> = Vec::new();
+    let mut drops: Vec<Track> = Vec::new();
     loop {
         let left: Vec<usize> = (0..events.len()).filter(|&i| !explained[i]).collect();
-        let found = disjoint(events, &left, &drops, settings);
+        let found = disjoint(events, &left, &drops);
         if found.is_empty() {
             break;
         }
-        for chain in found {
-            for i in chain.events() {
+        for track in found {
+            for &i in &track.events {
                 taken[i] = true;
             }
-            for i in reasons::own_sounds(&scene, &chain) {
+            for i in reasons::own_sounds(&scene, &track) {
                 explained[i] = true;
             }
-            drops.push(chain);
+            drops.push(track);
         }
     }
-    drops.sort_by(|a, b| a.span_s().0.total_cmp(&b.span_s().0));
+    drops.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
     reasons::explain(&scene, drops, &taken)
 }
 
 /// The best chains among some of the events that share none, and are no echo of one another or of the drops known.
-fn disjoint(events: &[Event], left: &[usize], known: &[Chain], settings: &Settings) -> Vec<Chain> {
+fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> Vec<Track> {
     let some: Vec<Event> = left.iter().map(|&i| events[i]).collect();
     let clutter = Clutter::new(&some);
-    let scene = Scene::new(&some, &clutter, settings);
-    let mut chains = chains(&scene);
-    chains.retain(|chain| is_drop(chain, settings));
-    chains.sort_by(|a, b| b.evidence.total_cmp(&a.evidence));
+    let scene = Scene::new(&some, &clutter);
+    let mut tracks = tracks(&scene);
+    tracks.retain(|track| is_drop(&track.chain));
+    tracks.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
     let mut taken = vec![false; some.len()];
-    let mut found: Vec<Chain> = Vec::new();
-    for mut chain in chains {
+    let mut found: Vec<Track> = Vec::new();
+    for mut track in tracks {
         let mut before = known.iter().chain(&found);
-        if chain.events().any(|i| taken[i]) || before.any(|d| reasons::is_echo_of(&chain, d)) {
+        let is_known = track.events.iter().any(|&i| taken[i]);
+        if is_known || before.any(|d| reasons::is_echo_of(&track.chain, &d.chain)) {
             continue;
         }
-        chain.events().for_each(|i| taken[i] = true);
-        for link in &mut chain.links {
-            link.event = link.event.map(|i| left[i]);
+        for event in &mut track.events {
+            taken[*event] = true;
+            *event = left[*event];
         }
-        found.push(chain);
+        found.push(track);
     }
     found
 }
@@ -145,17 +90,13 @@ fn disjoint(events: &[Event], left: &[usize], known: &[Chain], settings: &Settin
 /// `impacts_s` are the times of all impacts of the chain and how far off each may be, in seconds. None if no three
 /// neighbouring impacts have events.
 #[must_use]
-pub fn follow_again(
-    events: &[Event],
-    impacts_s: &[(f64, f64)],
-    settings: &Settings,
-) -> Option<Chain> {
+pub fn follow_again(events: &[Event], impacts_s: &[(f64, f64)]) -> Option<Chain> {
     let clutter = Clutter::new(events);
-    let scene = Scene::new(events, &clutter, settings);
-    follow_known(&scene, impacts_s)
+    let scene = Scene::new(events, &clutter);
+    follow_known(&scene, impacts_s).map(|track| track.chain)
 }
 
-fn follow_known(scene: &Scene<'_>, impacts_s: &[(f64, f64)]) -> Option<Chain> {
+fn follow_known(scene: &Scene<'_>, impacts_s: &[(f64, f64)]) -> Option<Track> {
     let strength = |i: usize| scene.events[i].strength;
     let known: Vec<Option<usize>> = impacts_s
         .iter()
@@ -184,8 +125,8 @@ fn follow_known(scene: &Scene<'_>, impacts_s: &[(f64, f64)]) -> Option<Chain> {
 }
 
 /// The chains that the seeds lead to, the most promising seed first.
-fn chains(scene: &Scene<'_>) -> Vec<Chain> {
-    let mut chains: Vec<Chain> = Vec::new();
+fn tracks(scene: &Scene<'_>) -> Vec<Track> {
+    let mut tracks: Vec<Track> = Vec::new();
     // The chains that each event stands in. A seed whose events all stand in one would only find it again.
     let mut known: Vec<Vec<usize>> = vec![Vec::new(); scene.events.len()];
     let mut rates = scene.rates();
@@ -193,7 +134,7 @@ fn chains(scene: &Scene<'_>) -> Vec<Chain> {
         let [first, second, third] = seed.map(|i| &known[i]);
         if first
             .iter()
-            .any(|chain| second.contains(chain) && third.contains(chain))
+            .any(|track| second.contains(track) && third.contains(track))
         {
             continue;
         }
@@ -201,18 +142,18 @@ fn chains(scene: &Scene<'_>) -> Vec<Chain> {
         if steps.iter().filter(|s| s.event.is_some()).count() < FEWEST {
             continue;
         }
-        let chain = reassociated(scene, steps);
-        for event in chain.events() {
-            known[event].push(chains.len());
+        let track = reassociated(scene, steps);
+        for &event in &track.events {
+            known[event].push(tracks.len());
         }
-        chains.push(chain);
+        tracks.push(track);
     }
-    chains
+    tracks
 }
 
-fn is_drop(chain: &Chain, settings: &Settings) -> bool {
+fn is_drop(chain: &Chain) -> bool {
     let flights: Vec<f64> = chain
-        .links
+        .impacts
         .windows(2)
         .map(|w| w[1].time_s - w[0].time_s)
         .collect();
@@ -221,51 +162,10 @@ fn is_drop(chain: &Chain, settings: &Settings) -> bool {
     };
     let ratio = (last / first).powf(1.0 / real((flights.len() - 1).max(1)));
     chain.heard() >= FEWEST
-        && chain.evidence >= settings.least_evidence
+        && chain.evidence() >= LEAST_EVIDENCE
         && last <= LEAST_SHRINKAGE * first
         && first >= LEAST_FLIGHT_S
         && ratio <= GREATEST_RATIO
-}
-
-/// Puts inferred impacts where their neighbours want them: the flights between two heard impacts shrink evenly.
-fn links(steps: &[Step]) -> Vec<Link> {
-    let mut links: Vec<Link> = steps
-        .iter()
-        .map(|s| Link {
-            event: s.event,
-            time_s: s.time_s,
-            jitter_s: s.jitter_s,
-            gain: s.gain,
-            doubtful: s.chance > DOUBTFUL_PER_FLIGHT,
-        })
-        .collect();
-    let heard: Vec<usize> = (0..links.len())
-        .filter(|&i| links[i].event.is_some())
-        .collect();
-    for pair in heard.windows(2).filter(|p| p[1] - p[0] > 1) {
-        let flight = |k: usize| (links[k].time_s - links[k - 1].time_s).abs();
-        // The mean ratio of the flights just outside the gap, where there are any.
-        let ratio = match (pair[0] > 0, pair[1] + 1 < links.len()) {
-            (true, true) => {
-                (flight(pair[1] + 1) / flight(pair[0])).powf(1.0 / real(pair[1] + 1 - pair[0]))
-            }
-            _ => 1.0,
-        };
-        let weights: Vec<f64> = (pair[0]..pair[1])
-            .scan(1.0, |w, _| {
-                *w *= ratio;
-                Some(*w)
-            })
-            .collect();
-        let span = links[pair[1]].time_s - links[pair[0]].time_s;
-        let total: f64 = weights.iter().sum();
-        let mut time_s = links[pair[0]].time_s;
-        for (link, weight) in links[pair[0] + 1..pair[1]].iter_mut().zip(&weights) {
-            time_s += span * weight / total;
-            link.time_s = time_s;
-        }
-    }
-    links
 }
 
 /// An event's reason for being left out, with its time.

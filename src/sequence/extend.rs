@@ -3,6 +3,7 @@
 use super::clutter::Rates;
 use super::flight::{Doubt, FlightLaw, GATE};
 use super::track::{Scene, Step, chance};
+use super::{LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
 
 /// Hypotheses kept at each step: enough for an echo, a knock and a silence to compete with the true impact.
 const BEAM: usize = 5;
@@ -114,12 +115,11 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
 
     /// All ways to go on by one impact: heard at each event in the window, or not heard.
     fn go_on(&mut self, from: &Hypothesis, next: &mut Vec<Hypothesis>) {
-        let settings = self.scene.settings;
         let (flight, sign) = match self.way {
             Way::Forward => (from.law.next_s(from.flight_s), 1.0),
             Way::Backward => (from.law.previous_s(from.flight_s), -1.0),
         };
-        if flight < settings.shortest_flight_s || flight > SLACK * settings.longest_flight_s {
+        if !(SHORTEST_FLIGHT_S..=SLACK * LONGEST_FLIGHT_S).contains(&flight) {
             return;
         }
         let (earlier, later) = self.in_order(from, flight);
@@ -150,12 +150,11 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
 
     /// The hypothesis that an event is the next impact; none where silence explains it better.
     fn heard(&mut self, from: &Hypothesis, event: usize) -> Option<Hypothesis> {
-        let settings = self.scene.settings;
         let heard = self.scene.events[event];
         let flight = (heard.time_s - from.time_s).abs();
         let (earlier, later) = self.in_order(from, flight);
         let ratio = later / earlier;
-        let flights = settings.shortest_flight_s..settings.longest_flight_s;
+        let flights = SHORTEST_FLIGHT_S..LONGEST_FLIGHT_S;
         if !(ratio < GROWTH && flights.contains(&flight)) {
             return None;
         }

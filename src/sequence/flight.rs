@@ -1,9 +1,9 @@
 //! What is known of the next flight, given the flights so far.
 
-use super::Settings;
 use crate::linalg::dot;
 use crate::physics::priors::{
-    Known, LN_RESTITUTION, TRACKED_BOUNCE_STDS, TRACKED_CONTACT_S, TRACKED_DRAG_PER_S2,
+    Known, LN_RESTITUTION, TRACKED_BOUNCE_STD, TRACKED_BOUNCE_STDS, TRACKED_CONTACT_S,
+    TRACKED_DRAG_PER_S2,
 };
 use crate::units::real;
 
@@ -84,7 +84,7 @@ impl Expected {
 impl FlightLaw {
     /// What holds for balls at large.
     #[must_use]
-    pub fn prior(settings: &Settings) -> Self {
+    pub fn prior() -> Self {
         let mut covariance = [[0.0; STATES]; STATES];
         for (i, known) in PRIOR.into_iter().enumerate() {
             covariance[i][i] = known.std * known.std;
@@ -92,14 +92,14 @@ impl FlightLaw {
         Self {
             state: PRIOR.map(|known| known.value),
             covariance,
-            scatter: settings.bounce_scatter,
+            scatter: TRACKED_BOUNCE_STD,
         }
     }
 
     /// The same law with the scatter of balls at large: what follows may lie far from what was learnt last.
     #[must_use]
-    pub const fn at_large(mut self, settings: &Settings) -> Self {
-        self.scatter = settings.bounce_scatter;
+    pub const fn at_large(mut self) -> Self {
+        self.scatter = TRACKED_BOUNCE_STD;
         self
     }
 
@@ -190,14 +190,13 @@ mod tests {
 
     #[test]
     fn a_law_taught_by_a_ball_with_drag_knows_its_next_and_previous_flight() {
-        let settings = Settings::default();
         let (e, kappa) = (0.94_f64, 0.15);
         let mut flights = vec![0.6];
         for _ in 0..20 {
             let t = flights[flights.len() - 1];
             flights.push(t * e * (-kappa * t * t).exp());
         }
-        let mut law = FlightLaw::prior(&settings);
+        let mut law = FlightLaw::prior();
         for pair in flights.windows(2) {
             law.learn(pair[0], pair[1], SHARP);
         }
@@ -210,8 +209,7 @@ mod tests {
 
     #[test]
     fn a_wild_bounce_moves_the_law_little() {
-        let settings = Settings::default();
-        let mut law = FlightLaw::prior(&settings);
+        let mut law = FlightLaw::prior();
         for _ in 0..10 {
             law.learn(0.3, 0.27, SHARP);
         }

@@ -1,6 +1,7 @@
 //! Why an event is no impact of a drop.
 
-use super::drops::{Chain, Found, reject};
+use super::chain::{Chain, Track};
+use super::drops::{Found, reject};
 use super::track::Scene;
 use crate::statistics::upper_median;
 use crate::units::real;
@@ -51,33 +52,34 @@ const NOTABLE_SHARE: f64 = 0.3;
 /// the same delay.
 #[must_use]
 pub fn is_echo_of(chain: &Chain, direct: &Chain) -> bool {
-    let delays = chain.links.iter();
+    let delays = chain.impacts.iter();
     let delays: Vec<f64> = delays
-        .filter_map(|l| delay_after(direct, l.time_s))
+        .filter_map(|i| delay_after(direct, i.time_s))
         .collect();
     let Some(median) = upper_median(delays.iter().copied()) else {
         return false;
     };
     let same = |delay: &&f64| (**delay - median).abs() < DELAY_TOLERANCE_S;
-    median < LONGEST_DELAY_S && 2 * delays.iter().filter(same).count() > chain.links.len()
+    median < LONGEST_DELAY_S && 2 * delays.iter().filter(same).count() > chain.impacts.len()
 }
 
 /// Seconds from the impact of a chain before a time, or just after it.
 fn delay_after(chain: &Chain, time_s: f64) -> Option<f64> {
-    let before = chain.links.partition_point(|d| d.time_s <= time_s + NEAR_S);
-    Some(time_s - chain.links[before.checked_sub(1)?].time_s)
+    let impacts = &chain.impacts;
+    let before = impacts.partition_point(|i| i.time_s <= time_s + NEAR_S);
+    Some(time_s - impacts[before.checked_sub(1)?].time_s)
 }
 
 /// Which events a chain explains, in order: its impacts and their echoes.
-#[must_use]
-pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
-    let (mut explained, echoes) = own_echoes(scene, chain);
-    for link in &chain.links {
+pub(super) fn explained(scene: &Scene<'_>, track: &Track) -> Vec<usize> {
+    let echoes = own_echoes(scene, track);
+    let mut explained = track.events.clone();
+    for impact in &track.chain.impacts {
         explained.extend(
             scene
-                .between(link.time_s, link.time_s + LONGEST_DELAY_S)
+                .between(impact.time_s, impact.time_s + LONGEST_DELAY_S)
                 .filter(|&i| {
-                    let delay = scene.events[i].time_s - link.time_s;
+                    let delay = scene.events[i].time_s - impact.time_s;
                     echoes.iter().any(|d| (delay - d).abs() < DELAY_TOLERANCE_S)
                 }),
         );
@@ -88,25 +90,23 @@ pub fn explained(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
 }
 
 /// Which events the sound of a chain accounts for: what it explains, and what is near one of its impacts and weaker.
-#[must_use]
-pub fn own_sounds(scene: &Scene<'_>, chain: &Chain) -> Vec<usize> {
-    let mut own = explained(scene, chain);
-    for link in &chain.links {
-        let Some(event) = link.event else { continue };
+pub(super) fn own_sounds(scene: &Scene<'_>, track: &Track) -> Vec<usize> {
+    let mut own = explained(scene, track);
+    for (event, impact) in track.heard() {
         let strength = scene.events[event].strength;
-        let near = scene.between(link.time_s - NEAR_S, link.time_s + NEAR_S);
+        let near = scene.between(impact.time_s - NEAR_S, impact.time_s + NEAR_S);
         own.extend(near.filter(|&i| scene.events[i].strength <= strength));
     }
     own
 }
 
 /// Gives every strong event that is no impact its reason.
-#[must_use]
-pub fn explain(scene: &Scene<'_>, mut drops: Vec<Chain>, taken: &[bool]) -> Found {
+pub(super) fn explain(scene: &Scene<'_>, mut drops: Vec<Track>, taken: &[bool]) -> Found {
     let mut named = vec![false; taken.len()];
-    for drop in &mut drops {
+    for track in &mut drops {
+        let least = NOTABLE_SHARE * median_strength(scene, track);
+        let drop = &mut track.chain;
         let echoes = echo_delays(scene, drop, |i| taken[i]);
-        let least = NOTABLE_SHARE * median_strength(scene, drop);
         let (start_s, end_s) = drop.span_s();
         for i in scene.between(start_s - NEAR_S, end_s + LONGEST_DELAY_S) {
             if taken[i] || scene.events[i].strength < least {
@@ -127,7 +127,6 @@ pub fn explain(scene: &Scene<'_>, mut drops: Vec<Chain>, taken: &[bool]) -> Foun
             .strength
             .total_cmp(&scene.events[a].strength)
     });
-    let weak = outside.len().saturating_sub(NAMED);
     outside.truncate(NAMED);
     outside.sort_unstable();
     let rejected = outside
@@ -135,16 +134,17 @@ pub fn explain(scene: &Scene<'_>, mut drops: Vec<Chain>, taken: &[bool]) -> Foun
         .map(|i| reject(&scene.events[i], Reason::NoSequence))
         .collect();
     Found {
-        drops,
+        drops: drops.into_iter().map(|track| track.chain).collect(),
         rejected,
-        weak,
     }
 }
 
 fn reason_within(drop: &Chain, time_s: f64, echoes: &[f64]) -> Option<Reason> {
-    let after = drop.links.partition_point(|l| l.time_s <= time_s);
-    let previous = after.checked_sub(1).map(|i| time_s - drop.links[i].time_s);
-    let next = drop.links.get(after).map(|l| time_s - l.time_s);
+    let after = drop.impacts.partition_point(|i| i.time_s <= time_s);
+    let previous = after
+        .checked_sub(1)
+        .map(|i| time_s - drop.impacts[i].time_s);
+    let next = drop.impacts.get(after).map(|i| time_s - i.time_s);
     if let Some(&delay_s) = echoes
         .iter()
         .find(|&&d| previous.is_some_and(|p| (p - d).abs() < DELAY_TOLERANCE_S))
@@ -162,29 +162,29 @@ fn reason_within(drop: &Chain, time_s: f64, echoes: &[f64]) -> Option<Reason> {
     }
 }
 
-/// The events of a chain, and the delays at which others follow many of them.
-fn own_echoes(scene: &Scene<'_>, chain: &Chain) -> (Vec<usize>, Vec<f64>) {
-    let own: Vec<usize> = chain.events().collect();
-    let echoes = echo_delays(scene, chain, |i| own.binary_search(&i).is_ok());
-    (own, echoes)
+/// Delays at which events follow many of the impacts of a chain.
+fn own_echoes(scene: &Scene<'_>, track: &Track) -> Vec<f64> {
+    echo_delays(scene, &track.chain, |i| {
+        track.events.binary_search(&i).is_ok()
+    })
 }
 
 /// Delays at which something follows many of the impacts.
 fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: impl Fn(usize) -> bool) -> Vec<f64> {
     let mut delays: Vec<f64> = Vec::new();
-    for link in &drop.links {
+    for impact in &drop.impacts {
         let window = scene.between(
-            link.time_s + DELAY_TOLERANCE_S,
-            link.time_s + LONGEST_DELAY_S,
+            impact.time_s + DELAY_TOLERANCE_S,
+            impact.time_s + LONGEST_DELAY_S,
         );
         delays.extend(
             window
                 .filter(|&i| !taken(i))
-                .map(|i| scene.events[i].time_s - link.time_s),
+                .map(|i| scene.events[i].time_s - impact.time_s),
         );
     }
     delays.sort_by(f64::total_cmp);
-    let needed = ECHO_SHARE * real(drop.links.len());
+    let needed = ECHO_SHARE * real(drop.impacts.len());
     let mut echoes = Vec::new();
     let mut first = 0;
     while first < delays.len() {
@@ -199,7 +199,7 @@ fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: impl Fn(usize) -> bool) -
     echoes
 }
 
-fn median_strength(scene: &Scene<'_>, drop: &Chain) -> f64 {
-    let heard = drop.links.iter().filter_map(|l| l.event);
-    upper_median(heard.map(|i| scene.events[i].strength)).unwrap_or(0.0)
+fn median_strength(scene: &Scene<'_>, track: &Track) -> f64 {
+    let heard = track.events.iter();
+    upper_median(heard.map(|&i| scene.events[i].strength)).unwrap_or(0.0)
 }

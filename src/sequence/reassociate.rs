@@ -1,7 +1,7 @@
 //! Following a chain anew with what it taught: its own impacts and their echoes are no clutter.
 
+use super::chain::Track;
 use super::clutter::Rates;
-use super::drops::Chain;
 use super::reasons;
 use super::track::{Scene, Step, follow};
 
@@ -21,27 +21,27 @@ struct Version {
 /// one another for ever, and the one with the most evidence among them is taken. They are compared under one clutter:
 /// all events but those that any of them explains.
 #[must_use]
-pub(super) fn reassociated(scene: &Scene<'_>, steps: Vec<Step>) -> Chain {
+pub(super) fn reassociated(scene: &Scene<'_>, steps: Vec<Step>) -> Track {
     within(MOST_VERSIONS, scene, steps)
 }
 
-fn within(most: usize, scene: &Scene<'_>, mut steps: Vec<Step>) -> Chain {
+fn within(most: usize, scene: &Scene<'_>, mut steps: Vec<Step>) -> Track {
     let mut versions: Vec<Version> = Vec::new();
     loop {
         if let Some(first) = versions.iter().position(|v| is_same(&v.steps, &steps)) {
             // The same impacts, judged as they stand now.
             versions[first].steps = steps;
-            return Chain::new(&best(scene, versions.split_off(first)));
+            return Track::new(&best(scene, versions.split_off(first)));
         }
         let Some(seed) = best_seed(&steps) else {
-            return Chain::new(&steps);
+            return Track::new(&steps);
         };
-        let explained = reasons::explained(scene, &Chain::new(&steps));
+        let explained = reasons::explained(scene, &Track::new(&steps));
         let next = follow(scene, &mut scene.rates_without(&explained), seed);
         versions.push(Version { steps, explained });
         steps = next;
         if versions.len() == most {
-            return Chain::new(&best(scene, versions));
+            return Track::new(&best(scene, versions));
         }
     }
 }
@@ -95,9 +95,9 @@ fn best_seed(steps: &[Step]) -> Option<[usize; 3]> {
 mod tests {
     use super::*;
     use crate::random::SplitMix64;
+    use crate::sequence::Event;
     use crate::sequence::clutter::Clutter;
     use crate::sequence::seeds::seeds;
-    use crate::sequence::{Event, Settings};
 
     /// A drop of faint impacts with an echo, among knocks nearly as strong.
     fn events(seed: u64) -> Vec<Event> {
@@ -127,12 +127,11 @@ mod tests {
 
     #[test]
     fn more_rounds_than_the_limit_and_one_more_change_nothing() {
-        let settings = Settings::default();
         let (mut followed, mut cycles) = (0, 0);
         for seed in 1..=12 {
             let events = events(seed);
             let clutter = Clutter::new(&events);
-            let scene = Scene::new(&events, &clutter, &settings);
+            let scene = Scene::new(&events, &clutter);
             let mut rates = scene.rates();
             for start in seeds(&scene).into_iter().take(12) {
                 let steps = follow(&scene, &mut rates, start);
@@ -144,8 +143,8 @@ mod tests {
                 // A chain that does not come out again when it is followed anew is one of a cycle.
                 let explained = reasons::explained(&scene, &usual);
                 let mut rates = scene.rates_without(&explained);
-                let again = best_seed(&steps).map(|s| Chain::new(&follow(&scene, &mut rates, s)));
-                cycles += usize::from(again.is_some_and(|a| !a.events().eq(usual.events())));
+                let again = best_seed(&steps).map(|s| Track::new(&follow(&scene, &mut rates, s)));
+                cycles += usize::from(again.is_some_and(|a| a.events != usual.events));
                 followed += 1;
             }
         }

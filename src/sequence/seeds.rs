@@ -1,8 +1,8 @@
-//! Three candidates from which a drop may be followed.
+//! Three events from which a drop may be followed.
 
-use super::Event;
 use super::flight::{Doubt, FlightLaw};
 use super::track::Scene;
+use super::{Event, LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
 
 /// The strongest events within this many seconds …
 const NEIGHBOURHOOD_S: f64 = 0.6;
@@ -88,7 +88,7 @@ fn triples_around(scene: &Scene<'_>, leaders: &[Leader], place: usize, found: &m
     let second = leaders[place];
     for first in leaders[..place].iter().rev() {
         let flight = second.time_s - first.time_s;
-        if flight > scene.settings.longest_flight_s {
+        if flight > LONGEST_FLIGHT_S {
             break;
         }
         for third in &leaders[place + 1..] {
@@ -96,7 +96,7 @@ fn triples_around(scene: &Scene<'_>, leaders: &[Leader], place: usize, found: &m
             if next > RATIOS.1 * flight {
                 break;
             }
-            if next < RATIOS.0 * flight || next < scene.settings.shortest_flight_s {
+            if next < RATIOS.0 * flight || next < SHORTEST_FLIGHT_S {
                 continue;
             }
             let triple = [*first, second, *third];
@@ -116,7 +116,7 @@ const NEIGHBOUR_REACH: f64 = 0.1;
 /// What the best match for the impact after or before the three is worth, in nats; 0 where there is none.
 fn neighbour(scene: &Scene<'_>, leaders: &[Leader], triple: [Leader; 3]) -> f64 {
     let [t0, t1, t2] = triple.map(|l| l.time_s);
-    let mut law = FlightLaw::prior(scene.settings);
+    let mut law = FlightLaw::prior();
     let jitter_s = scene.jitter_s(triple.map(|l| l.event));
     law.learn(
         t1 - t0,

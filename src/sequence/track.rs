@@ -3,27 +3,21 @@
 use super::clutter::{Clutter, Rates};
 use super::extend::{Extension, Hypothesis, Way};
 use super::flight::{Doubt, FlightLaw};
-use super::{Event, Settings};
+use super::{Event, LONGEST_FLIGHT_S};
 
 /// Everything that tracking looks at and does not change.
 #[derive(Debug)]
 pub struct Scene<'a> {
     /// The events in order of time.
     pub events: &'a [Event],
-    /// What is known of balls.
-    pub settings: &'a Settings,
     clutter: &'a Clutter,
 }
 
 impl<'a> Scene<'a> {
     /// Events and the rates that were learnt from them.
     #[must_use]
-    pub const fn new(events: &'a [Event], clutter: &'a Clutter, settings: &'a Settings) -> Self {
-        Self {
-            events,
-            settings,
-            clutter,
-        }
+    pub const fn new(events: &'a [Event], clutter: &'a Clutter) -> Self {
+        Self { events, clutter }
     }
 
     /// The rates of clutter where none of the events is explained.
@@ -91,7 +85,7 @@ pub struct Step {
 pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec<Step> {
     let t = seed.map(|i| scene.events[i].time_s);
     let (first, second) = (t[1] - t[0], t[2] - t[1]);
-    let mut law = FlightLaw::prior(scene.settings);
+    let mut law = FlightLaw::prior();
     let doubt = Doubt {
         unheard: 0,
         jitter_s: scene.jitter_s(seed),
@@ -103,7 +97,7 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
     let ln_rates = seed.map(|i| rates.ln_per_s(i));
     let gains = [
         -ln_rates[0] - scene.duration_s().ln(),
-        -ln_rates[1] - scene.settings.longest_flight_s.ln(),
+        -ln_rates[1] - LONGEST_FLIGHT_S.ln(),
         ratio_density - ln_rates[2],
     ];
     let middle: Vec<Step> = (0..3)
@@ -133,7 +127,7 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
         .collect();
     relearn(&mut law_back, second, &late, doubt);
     let start = Hypothesis {
-        law: law_back.at_large(scene.settings),
+        law: law_back.at_large(),
         time_s: t[0],
         flight_s: first,
         ..start

@@ -6,5 +6,6 @@ pub(crate) mod fraction;
 pub mod interpolate;
 pub(crate) mod logarithm;
 pub(crate) mod smooth;
+pub mod sound;
 pub mod template;
 pub mod whiten;

@@ -1,6 +1,7 @@
 //! A filter after which the noise of this recording is white, by linear prediction.
 
 use super::interpolate::correlated;
+use super::sound::Sound;
 use crate::linalg::{Cholesky, dot};
 use crate::units::{real, samples_in, whole};
 
@@ -28,8 +29,8 @@ pub struct Whitener {
 impl Whitener {
     /// Learns the noise from the quietest frames from half a second before a span of the recording to half a second after.
     #[must_use]
-    pub fn learn(samples: &[f32], sample_rate_hz: f64, span_s: (f64, f64)) -> Self {
-        let quiet = quiet_frames(samples, sample_rate_hz, span_s);
+    pub fn learn(sound: &Sound<'_>, span_s: (f64, f64)) -> Self {
+        let quiet = quiet_frames(sound, span_s);
         let mut products = [[0.0; ORDER + 1]; ORDER + 1];
         let mut count = 0;
         for frame in &quiet {
@@ -78,47 +79,49 @@ impl Whitener {
 /// A recording as it sounds through the whitener of one drop.
 #[derive(Debug, Clone)]
 pub struct Whitened<'a> {
-    samples: &'a [f32],
-    sample_rate_hz: f64,
+    sound: Sound<'a>,
     whitener: Whitener,
 }
 
 impl<'a> Whitened<'a> {
     /// Learns the whitener from the quiet around a span of the recording, in seconds: the drop's.
     #[must_use]
-    pub fn around(samples: &'a [f32], sample_rate_hz: f64, span_s: (f64, f64)) -> Self {
+    pub fn around(sound: Sound<'a>, span_s: (f64, f64)) -> Self {
         Self {
-            samples,
-            sample_rate_hz,
-            whitener: Whitener::learn(samples, sample_rate_hz, span_s),
+            sound,
+            whitener: Whitener::learn(&sound, span_s),
         }
+    }
+
+    /// The sound as it was recorded, whose clock this has too.
+    #[must_use]
+    pub const fn sound(&self) -> &Sound<'a> {
+        &self.sound
     }
 
     /// Samples per second.
     #[must_use]
     pub const fn sample_rate_hz(&self) -> f64 {
-        self.sample_rate_hz
+        self.sound.sample_rate_hz
     }
 
     /// The whitened samples from one sample to before another; none if the recording does not reach that far, with the
     /// filter's own past.
     #[must_use]
     pub fn between(&self, start: usize, end: usize) -> Option<Vec<f64>> {
-        self.whitener.apply(self.samples, start, end)
+        self.whitener.apply(self.sound.samples, start, end)
     }
 
     /// The samples that can be whitened: from the first that has the filter's past before it to the end.
     #[must_use]
     pub const fn range(&self) -> std::ops::Range<usize> {
-        self.whitener.past()..self.samples.len()
+        self.whitener.past()..self.sound.samples.len()
     }
 }
 
-fn quiet_frames(samples: &[f32], sample_rate_hz: f64, span_s: (f64, f64)) -> Vec<&[f32]> {
-    let at = |time_s: f64| samples_in(time_s, sample_rate_hz).min(samples.len());
-    let (from, to) = (at(span_s.0 - AROUND_S), at(span_s.1 + AROUND_S));
-    let region = &samples[from..to.max(from)];
-    let frame = samples_in(FRAME_S, sample_rate_hz).max(2 * ORDER);
+fn quiet_frames<'a>(sound: &Sound<'a>, span_s: (f64, f64)) -> Vec<&'a [f32]> {
+    let region = sound.between(span_s.0 - AROUND_S, span_s.1 + AROUND_S);
+    let frame = samples_in(FRAME_S, sound.sample_rate_hz).max(2 * ORDER);
     let energy = |f: &[f32]| f.iter().map(|x| x * x).sum::<f32>();
     // Digital silence says nothing of the noise.
     let mut frames: Vec<(f32, &[f32])> = region
@@ -187,7 +190,7 @@ mod tests {
                 (0.1 * turn.sin() + 0.05 * (3.0 * turn + 1.0).sin() + 1e-4 * rng.normal()) as f32
             })
             .collect();
-        let whitener = Whitener::learn(&hum, 48_000.0, (1.0, 1.0));
+        let whitener = Whitener::learn(&Sound::from_start(&hum, 48_000.0), (1.0, 1.0));
         let white = whitener.apply(&hum, 1_000, 90_000).unwrap();
         let power = white.iter().map(|x| x * x).sum::<f64>() / real(white.len());
         assert!((0.7..1.5).contains(&power), "{power}");
@@ -204,7 +207,7 @@ mod tests {
                 y as f32
             })
             .collect();
-        let whitener = Whitener::learn(&noise, 48_000.0, (1.0, 1.0));
+        let whitener = Whitener::learn(&Sound::from_start(&noise, 48_000.0), (1.0, 1.0));
         let white = whitener.apply(&noise, 1_000, 90_000).unwrap();
         let mean_product = |lag: usize| {
             white

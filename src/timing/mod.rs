@@ -6,6 +6,7 @@
 
 mod joint;
 
+use crate::impact::Impact;
 use crate::signal::fraction;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
@@ -27,69 +28,64 @@ words! {
     }
 }
 
-/// A time with its standard error.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Timed {
-    /// Seconds from the first sample to the onset of the sound.
-    pub time_s: f64,
-    /// Standard error in seconds, without what all impacts of the drop share.
-    pub std_s: f64,
-}
-
 /// Sound kept before and after each coarse time, in seconds: the jitter of the detector, the search, and the first
 /// milliseconds of an impact, which hold most of its bandwidth.
 const BEFORE_S: f64 = 3e-3;
 const AFTER_S: f64 = 5e-3;
 
-/// The times of the impacts of a drop, and the sound that they have in common.
+/// The impacts of a drop where they are, and the sound that they have in common.
 #[derive(Debug, Clone)]
 pub struct Refined {
-    /// In the order of the coarse times.
-    pub times: Vec<Timed>,
+    /// All impacts, those heard with their times, those inferred as they were.
+    pub impacts: Vec<Impact>,
     /// What all were timed by; none where each was timed by itself.
     pub template: Option<Template>,
 }
 
-/// Times the impacts of one drop in its whitened sound, given coarse times in ascending order and how far off they may be.
+/// Times the heard impacts of one drop in its whitened sound: `impacts` are in ascending order, each with how far off its
+/// time may be. The standard errors are without what all impacts of the drop share.
 ///
 /// Where a method fails on an impact (its window is cut by the end of the recording, or nothing rises in it) the coarse time
 /// stays, with its error.
 #[must_use]
-pub fn refine(sound: &Whitened<'_>, coarse: &[Timed], timing: Timing) -> Refined {
+pub fn refine(sound: &Whitened<'_>, impacts: &[Impact], timing: Timing) -> Refined {
+    let heard = impacts.iter().copied().filter(Impact::is_heard);
+    let heard: Vec<Impact> = heard.collect();
     let together = match timing {
-        Timing::Correlation => joint::times(sound, coarse),
+        Timing::Correlation => joint::times(sound, &heard),
         Timing::Envelope | Timing::Fraction => None,
     };
-    if let Some((times, template)) = together {
-        return Refined {
-            times,
-            template: Some(template),
-        };
-    }
     // One drop is timed in one way: what its impacts have in common then cancels.
-    let times = match timing {
-        Timing::Envelope => coarse.to_vec(),
-        Timing::Fraction | Timing::Correlation => {
-            let each = coarse.iter();
-            each.map(|coarse| by_fraction(sound, coarse.time_s).unwrap_or(*coarse))
-                .collect()
+    let (timed, template) = match (together, timing) {
+        (Some((timed, template)), _) => (timed, Some(template)),
+        (None, Timing::Envelope) => (heard, None),
+        (None, Timing::Fraction | Timing::Correlation) => {
+            let each = heard.iter();
+            let timed = each.map(|&coarse| by_fraction(sound, coarse).unwrap_or(coarse));
+            (timed.collect(), None)
         }
     };
+    let mut timed = timed.into_iter();
+    let impacts = impacts.iter().map(|&impact| {
+        let timed = impact.is_heard().then(|| timed.next());
+        timed.flatten().unwrap_or(impact)
+    });
     Refined {
-        times,
-        template: None,
+        impacts: impacts.collect(),
+        template,
     }
 }
 
 /// The time of one impact by its own rise.
-fn by_fraction(sound: &Whitened<'_>, time_s: f64) -> Option<Timed> {
+fn by_fraction(sound: &Whitened<'_>, coarse: Impact) -> Option<Impact> {
     let rate = sound.sample_rate_hz();
-    let centre = samples_in(time_s, rate);
+    let centre = sound.sound().sample_at(coarse.time_s);
     let start = centre.checked_sub(samples_in(BEFORE_S, rate))?;
     let window = sound.between(start, centre + samples_in(AFTER_S, rate))?;
     let rise = fraction::time(&window, centre - start, rate)?;
-    Some(Timed {
-        time_s: (real(start) + rise.position) / rate,
+    Some(Impact {
+        time_s: sound.sound().time_s(real(start) + rise.position),
         std_s: rise.std / rate,
+        ..coarse
     })
 }

@@ -5,7 +5,8 @@ use super::bounce::ends;
 use super::model::Modelled;
 use crate::Error;
 use crate::fit::Estimate;
-use crate::fit::flights::{Flights, Impact as Timed};
+use crate::fit::flights::Flights;
+use crate::impact::Impact;
 use crate::physics::FlightLaw;
 use crate::report::{Estimates, Warning, WarningCode};
 
@@ -89,7 +90,7 @@ impl Cause {
 impl Agreement {
     /// None where the flights give no e with an error.
     pub(super) fn of(
-        timed: &[Timed],
+        timed: &[Impact],
         flights: &Flights,
         estimates: &Estimates,
         modelled: &Modelled,
@@ -210,7 +211,12 @@ impl Agreement {
 /// ```text
 /// ln e′ = ln e + (ln(1 − C/D_b) − ln(1 − C/D_a))/(b − a)
 /// ```
-fn without_contact(ratio: Value, timed: &[Timed], flights: &Flights, modelled: &Modelled) -> Value {
+fn without_contact(
+    ratio: Value,
+    timed: &[Impact],
+    flights: &Flights,
+    modelled: &Modelled,
+) -> Value {
     let lengths = || (0..timed.len()).filter_map(|i| Some((i, flights.after(i)?)));
     let (Some((ball, contact)), Some((a, first)), Some((b, last))) = (
         modelled.ball_model.zip(modelled.contact),
@@ -241,7 +247,7 @@ fn without_contact(ratio: Value, timed: &[Timed], flights: &Flights, modelled: &
 /// ```
 /// and where mass and diameter are not given, what buoyancy and an e that falls with speed may do.
 fn first(
-    timed: &[Timed],
+    timed: &[Impact],
     flights: &Flights,
     modelled: &Modelled,
     settings: &Settings,

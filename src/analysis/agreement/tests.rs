@@ -36,7 +36,7 @@ const LIGHT: Made = Made {
 
 impl Made {
     /// The impacts by flight law, with 0.2 % scatter of the bounces and 1 µs of the times.
-    fn impacts(&self) -> Vec<Timed> {
+    fn impacts(&self) -> Vec<Impact> {
         let law = self.terminal_speed.map_or_else(
             || FlightLaw::without_air(G).unwrap(),
             |v| FlightLaw::with_terminal_speed(G, v).unwrap(),
@@ -45,11 +45,7 @@ impl Made {
         let mut speed = law.fall(self.height_m).unwrap().landing_speed_m_per_s;
         let mut time_s = 1.0;
         let impact = |_| {
-            let impact = Timed {
-                time_s: time_s + 1e-6 * rng.normal(),
-                std_s: 1e-6,
-                heard: true,
-            };
+            let impact = Impact::heard(time_s + 1e-6 * rng.normal(), 1e-6);
             let hop = law
                 .hop(speed * self.e * (0.002 * rng.normal()).exp())
                 .unwrap();
@@ -69,7 +65,7 @@ fn with_height(height_m: f64) -> Settings {
 }
 
 /// The codes that these impacts call for.
-fn codes(timed: &[Timed], settings: &Settings) -> Vec<&'static str> {
+fn codes(timed: &[Impact], settings: &Settings) -> Vec<&'static str> {
     let flights = Flights::between(timed);
     let ratio = flights.ratio().unwrap();
     let height_m = settings.height_m.unwrap();

@@ -8,10 +8,10 @@ use super::Settings;
 use super::findings::Findings;
 use super::scene::{Bounds, hear};
 use crate::Error;
+use crate::detect::Detector;
 use crate::detect::quiet::Watch;
-use crate::detect::{self, Detector};
 use crate::report::Analysis;
-use crate::units::{real, samples_in};
+use crate::units::{frame_at, frame_time_s, frames, length, real, samples_in};
 
 /// Audio before the first rise that belongs to a scene, in seconds: it shows what is usual here.
 const BEFORE_S: f64 = 1.0;
@@ -50,15 +50,15 @@ pub struct Listener {
     detector: Detector,
     watches: Vec<Watch>,
     /// The frames that are listened to, counted from the start of the recording.
-    listened: std::ops::Range<usize>,
+    listened: std::ops::Range<u64>,
     /// Frames pushed so far.
-    position: usize,
+    position: u64,
     /// The audio just before what is held: [`BEFORE_S`] of it, where there was so much.
     earlier: Vec<Vec<f32>>,
     /// The audio held, channel by channel; its first frame is `held_from`, and `judged` is where the watches stand.
     held: Vec<Vec<f32>>,
-    held_from: usize,
-    judged: usize,
+    held_from: u64,
+    judged: u64,
     scene: Option<Rises>,
     /// Frames that may be held.
     most_held: usize,
@@ -69,9 +69,9 @@ pub struct Listener {
 #[derive(Debug, Clone, Copy)]
 struct Rises {
     /// First frame of the scene.
-    from: usize,
+    from: u64,
     /// First frame after the last unit in which something rose.
-    last: usize,
+    last: u64,
 }
 
 impl Listener {
@@ -91,21 +91,21 @@ impl Listener {
             let all = "sample rate of all channels together";
             return Err(Error::argument(all, together, expected));
         }
-        let detector = Detector::new(sample_rate_hz, &detect::Settings::default())?;
-        let frames = |time_s: f64| samples_in(time_s, sample_rate_hz);
-        let first = settings.start_s.map_or(0, frames);
+        let detector = Detector::new(sample_rate_hz)?;
+        let frame = |time_s: f64| frame_at(time_s, sample_rate_hz);
+        let first = settings.start_s.map_or(0, frame);
         let budget = HELD_BYTES / size_of::<f32>() / channels;
         Ok(Self {
             detector,
             watches: vec![Watch::new(sample_rate_hz); channels],
-            listened: first..settings.end_s.map_or(usize::MAX, frames),
+            listened: first..settings.end_s.map_or(u64::MAX, frame),
             position: 0,
             earlier: vec![Vec::new(); channels],
             held: vec![Vec::new(); channels],
             held_from: first,
             judged: first,
             scene: None,
-            most_held: budget.max(frames(LEAST_HELD_S)),
+            most_held: budget.max(samples_in(LEAST_HELD_S, sample_rate_hz)),
             findings: Findings::new(channels),
             settings: settings.clone(),
             sample_rate_hz,
@@ -147,16 +147,16 @@ impl Listener {
         if self.held.iter().any(|held| held.len() != end) {
             return Err(unlike(self.held.len()));
         }
-        let length = end - before;
-        let within = |frame: usize| frame.saturating_sub(self.position).min(length);
+        let read = end - before;
+        let within = |frame: u64| length(frame.saturating_sub(self.position)).min(read);
         let (from, to) = (within(self.listened.start), within(self.listened.end));
-        self.position += length;
+        self.position += frames(read);
         for held in &mut self.held {
             held.truncate(before + to);
             held.drain(before..(before + from).min(held.len()));
         }
         let unit = self.watches[0].unit();
-        while self.held_end() - self.judged >= unit {
+        while self.unjudged() >= unit {
             self.judge(unit);
             self.let_go()?;
         }
@@ -179,29 +179,39 @@ impl Listener {
             let got = self.settings.start_s.unwrap_or(0.0);
             return Err(Error::argument("start", got, "a time within the recording"));
         }
-        self.judge(end - self.judged);
+        self.judge(self.unjudged());
         if let Some(rises) = self.scene.take() {
-            let after = samples_in(AFTER_S, self.sample_rate_hz);
+            let after = frame_at(AFTER_S, self.sample_rate_hz);
             self.hear(rises.from, end.min(rises.last + after), false)?;
         }
-        let end_s = real(end) / self.sample_rate_hz;
+        let end_s = frame_time_s(end, self.sample_rate_hz);
         self.findings.analysis(end_s, &self.settings)
     }
 
     /// First frame after what is held.
-    fn held_end(&self) -> usize {
-        self.held_from + self.held[0].len()
+    fn held_end(&self) -> u64 {
+        self.held_from + frames(self.held[0].len())
+    }
+
+    /// Where a frame that is held stands in what is held.
+    fn place(&self, frame: u64) -> usize {
+        length(frame - self.held_from)
+    }
+
+    /// Frames held that the watches have not judged yet.
+    fn unjudged(&self) -> usize {
+        self.held[0].len() - self.place(self.judged)
     }
 
     /// Has the watches judge the next frames.
-    fn judge(&mut self, frames: usize) {
-        let begin = self.judged - self.held_from;
+    fn judge(&mut self, unit: usize) {
+        let begin = self.place(self.judged);
         let mut rises = false;
         for (watch, held) in self.watches.iter_mut().zip(&self.held) {
             // Every watch has to hear everything.
-            rises |= watch.rises(&held[begin..begin + frames]);
+            rises |= watch.rises(&held[begin..begin + unit]);
         }
-        let end = self.judged + frames;
+        let end = self.judged + frames(unit);
         if rises {
             let from = self.scene.map_or_else(|| self.begin(), |scene| scene.from);
             self.scene = Some(Rises { from, last: end });
@@ -211,21 +221,23 @@ impl Listener {
 
     /// First frame of a scene in which something rises after all that was judged; what is needed of the audio before
     /// is held from then on.
-    fn begin(&mut self) -> usize {
+    fn begin(&mut self) -> u64 {
         let before = samples_in(BEFORE_S, self.sample_rate_hz);
-        let missing = before.saturating_sub(self.judged - self.held_from);
+        let missing = before.saturating_sub(self.place(self.judged));
         let missing = missing.min(self.earlier[0].len());
         for (held, earlier) in self.held.iter_mut().zip(&self.earlier) {
             held.splice(0..0, earlier[earlier.len() - missing..].iter().copied());
         }
-        self.held_from -= missing;
-        self.judged.saturating_sub(before).max(self.held_from)
+        self.held_from -= frames(missing);
+        self.judged
+            .saturating_sub(frames(before))
+            .max(self.held_from)
     }
 
     /// Lets audio go that is not needed any more, after it was analyzed if it is part of a scene.
     fn let_go(&mut self) -> Result<(), Error> {
-        let frames = |span_s| samples_in(span_s, self.sample_rate_hz);
-        let (before, after, over) = (frames(BEFORE_S), frames(AFTER_S), frames(OVER_S));
+        let span = |span_s| frame_at(span_s, self.sample_rate_hz);
+        let (before, after, over) = (span(BEFORE_S), span(AFTER_S), span(OVER_S));
         let end = self.judged;
         match self.scene {
             None if end - self.held_from >= before => self.set_aside(),
@@ -234,7 +246,7 @@ impl Listener {
                 self.hear(rises.from, rises.last + after, false)?;
                 self.forget(end - before);
             }
-            Some(rises) if end - rises.from >= self.most_held => {
+            Some(rises) if end - rises.from >= frames(self.most_held) => {
                 let settled = self.hear(rises.from, end, true)?;
                 self.scene = Some(Rises {
                     from: settled,
@@ -250,7 +262,7 @@ impl Listener {
     /// Moves what was judged out of the way, in place of what was moved before. Buffers change places, so that silence
     /// is not copied, and are no longer than has to be, so that they stay in the cache.
     fn set_aside(&mut self) {
-        let judged = self.judged - self.held_from;
+        let judged = self.place(self.judged);
         for (earlier, held) in self.earlier.iter_mut().zip(&mut self.held) {
             std::mem::swap(earlier, held);
             held.clear();
@@ -261,25 +273,28 @@ impl Listener {
         self.held_from = self.judged;
     }
 
-    fn forget(&mut self, before: usize) {
+    fn forget(&mut self, before: u64) {
+        let forgotten = self.place(before);
         for held in &mut self.held {
-            held.drain(..before - self.held_from);
+            held.drain(..forgotten);
         }
         self.held_from = before;
     }
 
     /// Analyzes a scene; gives the frame up to which that is settled.
-    fn hear(&mut self, from: usize, to: usize, cut: bool) -> Result<usize, Error> {
+    fn hear(&mut self, from: u64, to: u64, cut: bool) -> Result<u64, Error> {
         let bounds = Bounds {
             first: from,
             listened_from: self.listened.start,
             cut,
         };
-        let part = from - self.held_from..to - self.held_from;
+        let part = self.place(from)..self.place(to);
         let channels: Vec<&[f32]> = self.held.iter().map(|held| &held[part.clone()]).collect();
-        let told_s = self.findings.told_after(real(from) / self.sample_rate_hz);
+        let told_s = self
+            .findings
+            .told_after(frame_time_s(from, self.sample_rate_hz));
         let heard = hear(&channels, &bounds, told_s, &self.detector, &self.settings)?;
-        let settled = samples_in(heard.settled_s, self.sample_rate_hz).clamp(from, to);
+        let settled = frame_at(heard.settled_s, self.sample_rate_hz).clamp(from, to);
         self.findings.add(heard);
         Ok(settled)
     }

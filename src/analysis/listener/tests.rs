@@ -176,6 +176,26 @@ fn what_is_held_does_not_grow() {
 }
 
 #[test]
+fn a_stream_of_more_than_two_days_is_listened_to() {
+    let samples = recording(10.0, &[2.0]);
+    let first = 1_u64 << 33;
+    let mut late = listener();
+    // As it stands after silence of that length, which is too long to be pushed.
+    late.listened.start = first;
+    (late.position, late.held_from, late.judged) = (first, first, first);
+    let (late, early) = (
+        heard(late, &samples, 8_192),
+        heard(listener(), &samples, 8_192),
+    );
+    let (late, early) = (&impacts_s(&late)[0], &impacts_s(&early)[0]);
+    assert_eq!(late.len(), early.len());
+    let gone_s = frame_time_s(first, RATE_HZ);
+    for (a, b) in late.iter().zip(early) {
+        assert!((a - gone_s - b).abs() < 1e-6, "{a} {b}");
+    }
+}
+
+#[test]
 fn the_channel_is_chosen_for_each_drop() {
     let (first, second) = (recording(20.0, &[1.0]), recording(20.0, &[11.0]));
     let mut listener = Listener::new(2, RATE_HZ, &Settings::default()).unwrap();

@@ -29,7 +29,8 @@ mod start;
 #[cfg(test)]
 mod tests;
 
-use super::Timed;
+use crate::impact::Impact;
+use crate::signal::sound::Sound;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
 use crate::statistics::upper_median;
@@ -88,16 +89,21 @@ struct Place {
 
 /// Times of the impacts from coarse times in ascending order, and the template that they were found by; an impact that does not
 /// resemble the others keeps the detector's time. None if there are fewer than three.
-pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Timed]) -> Option<(Vec<Timed>, Template)> {
+pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<Impact>, Template)> {
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
     let followed = drift::follow(&started, aligned);
-    let timed = timed(&started, &followed);
+    let timed = timed(whitened.sound(), coarse, &started, &followed);
     Some((timed, followed.joint.template))
 }
 
-/// Times and standard errors in seconds of the recording.
-fn timed(started: &Started, followed: &Followed<'_>) -> Vec<Timed> {
+/// The impacts with their times and standard errors in seconds of the recording.
+fn timed(
+    recorded: &Sound<'_>,
+    coarse: &[Impact],
+    started: &Started,
+    followed: &Followed<'_>,
+) -> Vec<Impact> {
     let (joint, late) = (&followed.joint, &followed.late);
     let onset = joint.template.onset(started.rate);
     let usual = usual_move(&joint.priors, &joint.places);
@@ -112,9 +118,10 @@ fn timed(started: &Started, followed: &Followed<'_>) -> Vec<Timed> {
             // It does not resemble the others, or rival places lie farther apart than the detector errs.
             _ => (prior.position + usual, prior.std),
         };
-        Timed {
-            time_s: (real(started.first) + position + onset) / started.rate,
+        Impact {
+            time_s: recorded.time_s(real(started.first) + position + onset),
             std_s: std / started.rate,
+            ..coarse[i]
         }
     };
     (0..stds.len()).map(in_recording).collect()

@@ -1,6 +1,7 @@
 //! What is known of a drop's impacts before any is matched.
 
-use super::{BEFORE_S, LEAD_S, LONGEST_S, Place, Prior, Timed};
+use super::{BEFORE_S, LEAD_S, LONGEST_S, Place, Prior};
+use crate::impact::Impact;
 use crate::signal::interpolate::shifted;
 use crate::signal::template::aligned::{Cut, SHORTEST_S};
 use crate::signal::whiten::Whitened;
@@ -45,17 +46,18 @@ pub(super) struct Started {
 
 impl Started {
     /// From coarse times in ascending order; none of fewer than three, or where the recording is too short.
-    pub(super) fn of(whitened: &Whitened<'_>, coarse: &[Timed]) -> Option<Self> {
+    pub(super) fn of(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Self> {
         if coarse.len() < FEWEST {
             return None;
         }
         let (rate, range) = (whitened.sample_rate_hz(), whitened.range());
         let (first_s, last_s) = (coarse.first()?.time_s, coarse.last()?.time_s);
-        let first = samples_in(first_s - LEAD_S, rate).max(range.start);
-        let end = samples_in(last_s + LONGEST_S, rate).min(range.end);
+        let recorded = whitened.sound();
+        let first = recorded.sample_at(first_s - LEAD_S).max(range.start);
+        let end = recorded.sample_at(last_s + LONGEST_S).min(range.end);
         let sound = whitened.between(first, end)?;
         let seen = coarse.iter().map(|t| Prior {
-            position: t.time_s * rate - real(first),
+            position: recorded.position(t.time_s) - real(first),
             std: t.std_s * rate,
         });
         let mut priors: Vec<Prior> = seen.collect();

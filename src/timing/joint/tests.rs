@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::random::SplitMix64;
+use crate::signal::sound::Sound;
 use crate::units::samples_in;
 
 const RATE: f64 = 44_100.0;
@@ -78,11 +79,8 @@ fn errors(ball: &Ball, onsets_s: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// Coarse times as a detector gives them that is sure of them.
-fn seen(times_s: &[f64]) -> Vec<Timed> {
-    let sure = |&time_s: &f64| Timed {
-        time_s,
-        std_s: 1.5e-4,
-    };
+fn seen(times_s: &[f64]) -> Vec<Impact> {
+    let sure = |&time_s: &f64| Impact::heard(time_s, 1.5e-4);
     times_s.iter().map(sure).collect()
 }
 
@@ -93,7 +91,7 @@ fn errors_in(samples: &[f32], onsets_s: &[f64]) -> Vec<(f64, f64)> {
         .map(|t| t + 3e-4 * (2.0 * rng.uniform() - 1.0))
         .collect();
     let span_s = (coarse[0], coarse[coarse.len() - 1]);
-    let sound = Whitened::around(samples, RATE, span_s);
+    let sound = Whitened::around(Sound::from_start(samples, RATE), span_s);
     let (timed, _) = times(&sound, &seen(&coarse)).unwrap();
     let mut found: Vec<(f64, f64)> = timed
         .iter()
@@ -201,7 +199,10 @@ fn an_impact_unlike_the_others_keeps_the_detectors_time_and_says_so() {
         let noise = (0.3 * rng.normal()) as f32;
         *x = noise;
     }
-    let sound = Whitened::around(&samples, RATE, (onsets_s[0], onsets_s[11]));
+    let sound = Whitened::around(
+        Sound::from_start(&samples, RATE),
+        (onsets_s[0], onsets_s[11]),
+    );
     let (timed, _) = times(&sound, &seen(&onsets_s)).unwrap();
     let stds: Vec<f64> = timed.iter().map(|t| t.std_s).collect();
     assert!(stds[5] > 1e-4, "stated {} s", stds[5]);

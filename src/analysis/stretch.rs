@@ -1,0 +1,36 @@
+//! The stretch of a channel that is analyzed.
+
+use crate::detect::HOP_S;
+use crate::impact::Impact;
+use crate::sequence::Chain;
+use crate::signal::sound::Sound;
+use crate::signal::whiten::Whitened;
+use crate::timing::{Refined, Timing, refine};
+
+/// Standard error of a time on the detector's grid, in hops: a uniform error of one hop either way.
+const GRID_ERROR: f64 = 0.58;
+
+/// A stretch of a channel, and where listening to its recording began.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Stretch<'a> {
+    pub sound: Sound<'a>,
+    /// Where listening began; the stretch may begin later.
+    pub listened_from_s: f64,
+}
+
+impl<'a> Stretch<'a> {
+    /// The sound that a chain is timed in.
+    pub(super) fn whitened(&self, chain: &Chain) -> Whitened<'a> {
+        Whitened::around(self.sound, chain.span_s())
+    }
+
+    /// The impacts of a chain with their times.
+    pub(super) fn timed(&self, chain: &Chain, sound: &Whitened<'_>, timing: Timing) -> Refined {
+        let coarse = chain.impacts.iter().map(|&seen| Impact {
+            std_s: seen.std_s.max(GRID_ERROR * HOP_S),
+            ..seen
+        });
+        let coarse: Vec<Impact> = coarse.collect();
+        refine(sound, &coarse, timing)
+    }
+}

@@ -1,0 +1,14 @@
+//! What a detector gives a tracker.
+
+/// A moment at which something may have struck.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Event {
+    /// Seconds from the start of the recording.
+    pub time_s: f64,
+    /// Standard deviation of the time in seconds: a quarter of a millisecond for a click, a millisecond or two for a
+    /// thud.
+    pub jitter_s: f64,
+    /// Evidence that something struck, in nats: the log-likelihood ratio of a rise in energy, summed over bands, or of a
+    /// match of z standard deviations, z²/2.
+    pub strength: f64,
+}
