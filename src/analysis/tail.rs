@@ -27,7 +27,7 @@ const SAME_CHAIN_S: f64 = 3e-3;
 #[derive(Debug)]
 pub(super) struct Followed<'a> {
     pub chain: Chain,
-    /// The sound that it is timed in, whitened by the noise around the chain as it was first.
+    /// The sound that it is timed in, whitened by the noise around the chain.
     pub sound: Whitened<'a>,
     /// Its impacts, those heard by correlation: the end was followed from there, and it is the same chain as before. None
     /// where it grew, or there was no end to follow.
@@ -57,14 +57,17 @@ pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
         let end = sequence::follow_again(&late, &known(&chain, &timed))?;
         joined(&chain, first, &end)
     });
-    let (chain, timed) = match longer {
-        Some(chain) => (chain, None),
-        None => (chain, Some(timed)),
-    };
-    Followed {
-        chain,
-        sound,
-        timed,
+    match longer {
+        Some(chain) => Followed {
+            sound: stretch.whitened(&chain),
+            chain,
+            timed: None,
+        },
+        None => Followed {
+            chain,
+            sound,
+            timed: Some(timed),
+        },
     }
 }
 
