@@ -14,7 +14,7 @@ const FEW_IMPACTS: usize = 6;
 const CLIPPED: f32 = 0.9999;
 /// … from this many on in the sound of the impacts.
 const CLIPPED_SAMPLES: usize = 3;
-/// A candidate at least this strong, in nats, is a transient that a person would notice.
+/// An event at least this strong, in nats, is a transient that a person would notice.
 const NOTICEABLE: f64 = 30.0;
 
 /// What was heard in the whole recording, for when there is no drop in it.
