@@ -11,4 +11,7 @@ pub struct Event {
     /// Evidence that something struck, in nats: the log-likelihood ratio of a rise in energy, summed over bands, or of a
     /// match of z standard deviations, z²/2.
     pub strength: f64,
+    /// How loud it is, as a natural logarithm: of the size of a match, which goes with the speed of an impact, or of the
+    /// nats of a rise. It is comparable among events that were found in one way.
+    pub loudness: f64,
 }

@@ -61,6 +61,7 @@ pub fn events(
             time_s: recorded.time_s(onset + position),
             jitter_s: (JITTER_S / z).max(LEAST_JITTER_S),
             strength: 0.5 * z * z,
+            loudness: z.ln(),
         })
         .collect();
     found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));

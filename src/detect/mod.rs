@@ -103,6 +103,7 @@ impl Detector {
             time_s: segment.start_s + evidence.begin(p.index) * self.bank.hop_s(),
             jitter_s: evidence.jitter_s(p.index),
             strength: p.height,
+            loudness: p.height.ln(),
         }));
     }
 }

@@ -206,6 +206,7 @@ mod tests {
                 time_s: 0.02 * real(i),
                 jitter_s: 1e-4,
                 strength: if i % 100 == 0 { 50.0 } else { real(i % 10) },
+                loudness: 0.0,
             })
             .collect();
         let clutter = Clutter::new(&events);
@@ -214,6 +215,7 @@ mod tests {
             time_s: 10.0,
             jitter_s: 1e-4,
             strength: 3.0,
+            loudness: 0.0,
         };
         let weak = clutter.rate_per_s(&faint, &Explained::default());
         assert!((0.1..0.6).contains(&strong), "{strong}");
@@ -234,6 +236,7 @@ mod tests {
                 time_s: 5e-3 * real(i),
                 jitter_s: 1e-4,
                 strength: if i == 200 { 100.0 } else { strength },
+                loudness: 0.0,
             });
             let events: Vec<Event> = events.collect();
             Clutter::new(&events).rate_per_s(&events[200], &Explained::default())

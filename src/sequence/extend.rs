@@ -11,16 +11,14 @@ const BEAM: usize = 5;
 const STEP_COST: f64 = 3.5;
 /// Nats lost for an expected impact that nobody hears, where impacts are faint …
 const SILENCE_COST: f64 = 2.0;
-/// … which is below this strength; among louder ones a silence is less likely by the square of their strength.
+/// … which is below ln of this; among louder ones a silence is less likely by the square of how loud they are.
 const FAINT: f64 = 10.0;
 /// Impacts in a row that may be unheard.
 const LONGEST_SILENCE: usize = 2;
 /// No flight is longer than the one before, up to scatter.
 const GROWTH: f64 = 1.03;
-/// Spread of ln strength from one impact to the next: strengths vary by a factor of two to four.
-const LOUDNESS_SPREAD: f64 = 1.2;
-/// The power of the speed that strength goes with, in nats: 2 for a match, less for a rise of energy.
-const FADING: f64 = 1.5;
+/// Spread of the loudness from one impact to the next: it varies by a factor of two.
+const LOUDNESS_SPREAD: f64 = 0.7;
 /// Share of the newest impact in the mean loudness.
 const NEWEST_SHARE: f64 = 0.3;
 /// An impact is sought at most this share of a flight from where it is expected, however little is known.
@@ -49,7 +47,7 @@ pub(super) struct Hypothesis {
     pub time_s: f64,
     pub flight_s: f64,
     pub doubt: Doubt,
-    /// Mean of ln strength of the last few impacts.
+    /// Mean loudness of the last few impacts.
     pub loudness: f64,
     pub score: f64,
 }
@@ -166,13 +164,13 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         // The density is of ln T; per second it is divided by T.
         let density = expected.ln_density(ratio.ln() - expected.mean) - flight.ln();
         // Loudness is not monotone, but an impact much fainter than those around it is more likely to be something else.
-        // A slower impact is fainter: the nats of a match go with the square of the speed, those of a rise with its logarithm.
+        // A slower impact is fainter by its speed.
         let slower = match self.way {
-            Way::Forward => FADING * ratio.ln(),
+            Way::Forward => ratio.ln(),
             Way::Backward => 0.0,
         };
         let expected_loudness = from.loudness + slower;
-        let louder = self.scene.ln_strength(event) - expected_loudness;
+        let louder = heard.loudness - expected_loudness;
         let fainter = (-louder).max(0.0) / LOUDNESS_SPREAD;
         let ln_rate = self.rates.ln_per_s(event);
         let gain = density - ln_rate - 0.5 * fainter * fainter - STEP_COST;

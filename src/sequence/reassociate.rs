@@ -108,6 +108,7 @@ mod tests {
                 time_s,
                 jitter_s: 2e-4,
                 strength,
+                loudness: strength.ln(),
             });
         };
         let (mut at_s, mut flight_s) = (1.0, 0.5);

@@ -37,11 +37,6 @@ impl<'a> Scene<'a> {
         self.clutter.duration_s()
     }
 
-    /// ln of an event's strength.
-    pub(super) fn ln_strength(&self, event: usize) -> f64 {
-        self.events[event].strength.max(f64::MIN_POSITIVE).ln()
-    }
-
     /// The greatest jitter of three events.
     pub(super) fn jitter_s(&self, events: [usize; 3]) -> f64 {
         events
@@ -110,7 +105,7 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
             chance: chance(ln_rates[i], second),
         })
         .collect();
-    let loudness = seed.iter().map(|&i| scene.ln_strength(i)).sum::<f64>() / 3.0;
+    let loudness = seed.iter().map(|&i| scene.events[i].loudness).sum::<f64>() / 3.0;
     let start = Hypothesis {
         last: None,
         law,
