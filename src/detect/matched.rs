@@ -16,7 +16,7 @@ const LONGEST_S: f64 = 45e-3;
 /// What is matched begins this long before the onset, in seconds, …
 const BEFORE_S: f64 = 0.4e-3;
 /// … holds this share of the energy of the sound …
-const MATCHED_SHARE: f64 = 0.8;
+const MATCHED_SHARE: f64 = 0.85;
 /// … within this range of lengths, in seconds: longer ones would reach into the next impact …
 const MATCHED_S: (f64, f64) = (1.5e-3, 6e-3);
 /// … but where the shortest flight known is long, up to this share of it: a thud of 100 Hz is not known by half a period.
@@ -28,10 +28,9 @@ const WEAKEST: f64 = 3.5;
 const APART_S: f64 = 0.5e-3;
 /// Matches taken out for each second of the region: far more than a ball has impacts.
 const PER_SECOND: f64 = 300.0;
-/// A match of one standard deviation is this uncertain in time, in seconds; a better one less, down to what
-/// neighbours that overlap pull.
-const JITTER_S: f64 = 0.2e-3;
+/// What neighbours that overlap pull a match by: a standard deviation in seconds, and as a share of 1/β of what is matched.
 const LEAST_JITTER_S: f64 = 0.05e-3;
+const LEAST_JITTER_SHARE: f64 = 0.3;
 
 /// Matches with a drop's template in its whitened sound, in a region of the recording, in order of time.
 ///
@@ -47,6 +46,7 @@ pub fn events(
 ) -> Option<Vec<Event>> {
     let rate = sound.sample_rate_hz();
     let (pattern, before) = pattern(template, rate, shortest_s);
+    let inverse_bandwidth_s = 1.0 / bandwidth_per_s(&pattern.shape[..pattern.matched], rate);
     let recorded = *sound.sound();
     let start = recorded.sample_at(region_s.0);
     let end = recorded.sample_at(region_s.1).min(sound.range().end);
@@ -59,13 +59,24 @@ pub fn events(
         .into_iter()
         .map(|(position, z)| Event {
             time_s: recorded.time_s(onset + position),
-            jitter_s: (JITTER_S / z).max(LEAST_JITTER_S),
+            jitter_s: (inverse_bandwidth_s * LEAST_JITTER_SHARE.max(1.0 / z)).max(LEAST_JITTER_S),
             strength: 0.5 * z * z,
             loudness: z.ln(),
         })
         .collect();
     found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
     Some(found)
+}
+
+/// The effective bandwidth of a sound.
+///
+/// # Formula
+/// `β = √(∫ s'² dt / ∫ s² dt)` in radians a second: in white noise a match of z standard deviations errs by 1/(β·z) in time
+/// (Cramér and Rao's bound for a known pulse).
+fn bandwidth_per_s(sound: &[f64], rate: f64) -> f64 {
+    let change: f64 = sound.windows(2).map(|w| (w[1] - w[0]).powi(2)).sum();
+    let energy = dot(sound, sound).max(f64::MIN_POSITIVE);
+    rate * (change.max(f64::MIN_POSITIVE) / energy).sqrt()
 }
 
 /// The part of a template that is sought, and how many of its samples come before the nominal onset.
