@@ -13,17 +13,7 @@ use std::fs;
 use std::path::Path;
 
 use constants::{Constant, Source};
-use rows::Row;
-
-/// What a value can rest on.
-const CLASSES: [&str; 6] = [
-    "derived",
-    "measured",
-    "convention",
-    "limit",
-    "structural",
-    "unproven",
-];
+use rows::{CLASSES, Row};
 
 fn listed() -> Vec<Row> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/constants.md");

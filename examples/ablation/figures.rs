@@ -4,6 +4,7 @@ use bounce_audio::evaluate::rows::Row;
 use bounce_audio::units::real;
 
 /// A figure: its name, where it is in a row, and the least change that matters.
+#[derive(Debug)]
 pub(crate) struct Column {
     pub name: &'static str,
     pub of: fn(&Row) -> Option<f64>,
@@ -11,6 +12,7 @@ pub(crate) struct Column {
 }
 
 /// The least change that matters.
+#[derive(Debug)]
 enum Least {
     /// One.
     Count,
@@ -152,6 +154,15 @@ impl Figures {
 }
 
 impl Column {
+    /// The figure, times in microseconds.
+    pub(crate) fn shown(&self, value: f64) -> String {
+        match self.name {
+            "median" | "p95" => format!("{:.3} µs", 1e6 * value),
+            "e median" | "e p90" => format!("{value:.5}"),
+            _ => format!("{value:.4}"),
+        }
+    }
+
     fn words(&self, old: f64, new: f64) -> String {
         let name = self.name;
         match self.least {

@@ -32,7 +32,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use constants::{Constant, Source};
-use table::Table;
+use rows::Row;
+use table::Entry;
 
 /// Recordings of each scene.
 const SEEDS: u64 = 2;
@@ -81,43 +82,50 @@ impl Place {
         self.work.join("results")
     }
 
-    fn table(&self) -> Table {
-        Table::read(&fs::read_to_string(self.table_path()).unwrap_or_default())
+    /// All numbers with what is known of them, and the rows of which nothing is left.
+    fn entries(&self) -> (Vec<Entry<'_>>, Vec<Row>) {
+        let text = fs::read_to_string(self.table_path()).unwrap_or_default();
+        table::entries(&self.constants, rows::read(&text))
     }
 
     fn write_table(&self) {
-        let text = self.table().written(&self.constants, &self.results());
+        let text = table::written(&self.entries().0, &self.results());
         fs::write(self.table_path(), text).unwrap();
     }
 }
 
 fn list(place: &Place) {
-    let table = place.table();
-    for c in &place.constants {
-        let kind = table.class(c);
+    let (entries, gone) = place.entries();
+    for Entry { constant, row } in &entries {
+        let Constant {
+            file, line, about, ..
+        } = constant;
+        let class = row.class.split(':').next().unwrap_or_default();
         println!(
-            "{}:{}: {} = {} [{kind}] {}",
-            c.file, c.line, c.name, c.value, c.about
+            "{file}:{line}: {} = {} [{class}] {about}",
+            row.name, row.value
         );
     }
-    let varied: Vec<&Constant> = place
-        .constants
-        .iter()
-        .filter(|c| table.is_tuned(c))
-        .collect();
-    let numbers: usize = varied.iter().map(|c| c.numbers().len()).sum();
+    for row in gone {
+        println!("gone: {}::{}", row.file, row.name);
+    }
+    let structural = place.constants.iter().filter(|c| c.structural).count();
+    let tuned = entries.iter().filter(|e| e.is_tuned()).count();
     println!(
-        "{} constants, of which {} can be tuned: {numbers} numbers",
+        "{} constants, {structural} of which the compiler has to know; {tuned} numbers can be changed",
         place.constants.len(),
-        varied.len()
     );
 }
 
 /// Builds the copy, makes the suite and measures what is asked for.
 fn measure(place: &Place, part: &str) {
     let copy = place.work.join("copy");
-    let table = place.table();
-    let changes = table.changes(&place.constants, part);
+    let (entries, _) = place.entries();
+    let asked = entries.iter().filter(|e| e.constant.key().contains(part));
+    let changes: Vec<String> = asked
+        .flat_map(Entry::changes)
+        .filter(|c| !c.is_empty())
+        .collect();
     copy::make(&place.root, &copy, &place.sources, &place.constants).unwrap();
     let scorer = build(&copy, &place.work);
     let suite = place.work.join("suite");

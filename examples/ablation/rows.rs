@@ -1,5 +1,15 @@
 //! The rows of `docs/constants.md`.
 
+/// What a value can rest on.
+pub(crate) const CLASSES: [&str; 6] = [
+    "derived",
+    "measured",
+    "convention",
+    "limit",
+    "structural",
+    "unproven",
+];
+
 /// A number of a constant as the document has it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Row {

@@ -6,128 +6,131 @@ use bounce_audio::units::real;
 
 use super::constants::Constant;
 use super::figures::{COLUMNS, Figures};
-use super::rows::{Row, read};
-use super::run::result;
+use super::rows::Row;
+use super::run::{result, result_path};
 
 const PREFACE: &str = include_str!("preface.md");
-/// The word for what the compiler has to know and no run can change.
+/// The word for what the program is built of, and no run changes.
 const STRUCTURAL: &str = "structural";
+const HEAD: &str = "\
+| constant | value | | class and source | halved | doubled | off at | off |
+|---|---|---|---|---|---|---|---|
+";
 
-/// The rows of the document.
-#[derive(Debug, Clone, Default)]
-pub(crate) struct Table {
-    pub rows: Vec<Row>,
+/// A number of a constant, and its row.
+#[derive(Debug)]
+pub(crate) struct Entry<'a> {
+    pub(crate) constant: &'a Constant,
+    pub(crate) row: Row,
 }
 
-/// How a number is changed, in the order of [`Row::effects`].
-fn ways(off: &str) -> [String; 3] {
-    ["half".to_owned(), "double".to_owned(), off.to_owned()]
+/// All numbers of the constants with what is known of them; and the rows of which nothing is left.
+pub(crate) fn entries(constants: &[Constant], mut old: Vec<Row>) -> (Vec<Entry<'_>>, Vec<Row>) {
+    let mut entries: Vec<Entry> = constants.iter().flat_map(fresh).collect();
+    let mut open: Vec<&mut Entry> = entries.iter_mut().collect();
+    // A constant keeps its place; or it moved, or has another name.
+    let same: [fn(&Row, &Row) -> bool; 4] = [
+        |a, b| a.file == b.file && a.name == b.name,
+        |a, b| a.name == b.name && a.value == b.value,
+        |a, b| a.name == b.name,
+        |a, b| a.file == b.file && a.value == b.value,
+    ];
+    for same in same {
+        open.retain_mut(|entry| {
+            let found = old.iter().position(|row| same(&entry.row, row));
+            if let Some(found) = found {
+                take_over(&mut entry.row, old.remove(found));
+            }
+            found.is_none()
+        });
+    }
+    (entries, old)
 }
 
-impl Table {
-    pub(crate) fn read(text: &str) -> Self {
-        Self { rows: read(text) }
+fn fresh(constant: &Constant) -> impl Iterator<Item = Entry<'_>> {
+    let class = if constant.structural { STRUCTURAL } else { "" };
+    let numbers = constant.numbers().into_iter();
+    numbers.map(move |(name, value)| Entry {
+        constant,
+        row: Row {
+            file: constant.file.clone(),
+            name,
+            value,
+            class: class.to_owned(),
+            ..Row::default()
+        },
+    })
+}
+
+fn take_over(row: &mut Row, old: Row) {
+    // What another value did says nothing of this one.
+    if row.value == old.value {
+        row.effects = old.effects;
+    }
+    row.class = old.class;
+    row.off = old.off;
+}
+
+impl Entry<'_> {
+    /// Whether another value would still be a program.
+    pub(crate) fn is_tuned(&self) -> bool {
+        !self.constant.structural && !self.row.class.starts_with(STRUCTURAL)
     }
 
-    /// The row of a number; of another file if it moved there and no other has its name.
-    fn of(&self, constant: &Constant, name: &str) -> Option<&Row> {
-        let same: Vec<&Row> = self.rows.iter().filter(|r| r.name == name).collect();
-        let here = same.iter().find(|r| r.file == constant.file).copied();
-        here.or_else(|| same.first().copied().filter(|_| same.len() == 1))
+    /// Halved, doubled and switched off, as the changed program takes it; empty where there is no such change.
+    pub(crate) fn changes(&self) -> [String; 3] {
+        let Row {
+            file, name, off, ..
+        } = &self.row;
+        ["half", "double", off].map(|way| {
+            if way.is_empty() || !self.is_tuned() {
+                String::new()
+            } else {
+                format!("{file}::{name}={way}")
+            }
+        })
     }
 
-    /// The class of a constant: that of its first number.
-    pub(crate) fn class(&self, constant: &Constant) -> String {
-        let numbers = constant.numbers();
-        let row = numbers
-            .first()
-            .and_then(|(name, _)| self.of(constant, name));
-        match row {
-            Some(row) if !row.class.is_empty() => row.class.clone(),
-            _ if constant.structural => STRUCTURAL.to_owned(),
-            _ => String::new(),
-        }
-    }
-
-    /// Whether another value of a constant would still be a program.
-    pub(crate) fn is_tuned(&self, constant: &Constant) -> bool {
-        !constant.structural && !self.class(constant).starts_with(STRUCTURAL)
-    }
-
-    /// All changes of the constants whose key contains a part.
-    pub(crate) fn changes(&self, constants: &[Constant], part: &str) -> Vec<String> {
-        let mut changes = Vec::new();
-        for constant in constants
-            .iter()
-            .filter(|c| self.is_tuned(c) && c.key().contains(part))
-        {
-            for (name, _) in constant.numbers() {
-                let off = self.of(constant, &name).map_or("", |r| &r.off);
-                let ways = ways(off).into_iter().filter(|way| !way.is_empty());
-                changes.extend(ways.map(|way| change(constant, &name, &way)));
+    /// The row with what the results say.
+    fn measured(&self, results: &Path, base: Option<&Figures>) -> Row {
+        let mut row = self.row.clone();
+        for (effect, change) in row.effects.iter_mut().zip(self.changes()) {
+            if change.is_empty() {
+                effect.clear();
+            } else if let Some(new) = base.and_then(|base| effect_of(results, &change, base)) {
+                *effect = new;
             }
         }
-        changes
+        row
     }
+}
 
-    /// The document for the constants as they are and the results that there are.
-    pub(crate) fn written(&self, constants: &[Constant], results: &Path) -> String {
-        let base = result(results, "");
-        let mut text = PREFACE.to_owned();
-        text += &summary(self, constants, base.as_ref());
-        let mut file = "";
-        for constant in constants {
-            if constant.file != file {
-                file = &constant.file;
-                text += &format!(
-                    "\n## `{file}`\n\n| constant | value | | class and source | halved | doubled | off at | off |\n|---|---|---|---|---|---|---|---|\n"
-                );
-            }
-            for (name, value) in constant.numbers() {
-                let old = self.of(constant, &name).cloned().unwrap_or_default();
-                let mut row = Row {
-                    value,
-                    ..old.clone()
-                };
-                if row.class.is_empty() {
-                    row.class = self.class(constant);
-                }
-                for (effect, way) in row.effects.iter_mut().zip(ways(&row.off)) {
-                    if old.value != row.value {
-                        effect.clear();
-                    }
-                    if let (true, Some(base)) = (self.is_tuned(constant), &base) {
-                        if let Some(new) = effect_of(results, &change(constant, &name, &way), base)
-                        {
-                            *effect = new;
-                        }
-                    } else if !self.is_tuned(constant) {
-                        effect.clear();
-                    }
-                }
-                text += &line(&name, &row, &constant.about);
-            }
+/// The document.
+pub(crate) fn written(entries: &[Entry<'_>], results: &Path) -> String {
+    let base = result(results, "");
+    let mut text = PREFACE.to_owned() + &summary(entries, base.as_ref());
+    for of_file in entries.chunk_by(|a, b| a.constant.file == b.constant.file) {
+        text += &format!("\n## `{}`\n\n{HEAD}", of_file[0].constant.file);
+        for entry in of_file {
+            let row = entry.measured(results, base.as_ref());
+            text += &line(&row, &entry.constant.about);
         }
-        text
     }
+    text
 }
 
-fn change(constant: &Constant, name: &str, way: &str) -> String {
-    format!("{}::{name}={way}", constant.file)
-}
-
-fn line(name: &str, row: &Row, about: &str) -> String {
+fn line(row: &Row, about: &str) -> String {
     let [halved, doubled, off] = &row.effects;
     let about = about.replace('|', "∣");
     format!(
-        "| `{name}` | `{}` | {about} | {} | {halved} | {doubled} | {} | {off} |\n",
-        row.value, row.class, row.off
+        "| `{}` | `{}` | {about} | {} | {halved} | {doubled} | {} | {off} |\n",
+        row.name, row.value, row.class, row.off
     )
 }
 
 /// What a change did, in words; none if it was not measured.
 fn effect_of(results: &Path, change: &str, base: &Figures) -> Option<String> {
-    if !super::run::result_path(results, change).is_file() {
+    if !result_path(results, change).is_file() {
         return None;
     }
     let Some(figures) = result(results, change) else {
@@ -146,31 +149,24 @@ fn effect_of(results: &Path, change: &str, base: &Figures) -> Option<String> {
     if !(0.75..=1.3).contains(&time) {
         words.push(format!("time ×{time:.1}"));
     }
-    Some(
-        format!("{touched}: {}", words.join(", "))
-            .trim_end_matches([':', ' '])
-            .to_owned(),
-    )
+    let words = words.join(", ");
+    let colon = if words.is_empty() { "" } else { ": " };
+    Some(format!("{touched}{colon}{words}"))
 }
 
-fn summary(table: &Table, constants: &[Constant], base: Option<&Figures>) -> String {
-    let tuned: Vec<&Constant> = constants.iter().filter(|c| table.is_tuned(c)).collect();
-    let numbers: usize = tuned.iter().map(|c| c.numbers().len()).sum();
-    let mut text = format!(
-        "\n{} constants; {} of them can be tuned, with {numbers} numbers.\n",
-        constants.len(),
-        tuned.len()
-    );
+fn summary(entries: &[Entry<'_>], base: Option<&Figures>) -> String {
+    let mut text = String::from("\n| class | numbers |\n|---|---:|\n");
+    for class in super::rows::CLASSES {
+        let count = entries.iter().filter(|e| e.row.class.starts_with(class));
+        text += &format!("| {class} | {} |\n", count.count());
+    }
     if let Some(base) = base {
         let figures = COLUMNS.iter().zip(&base.all);
-        let figures: Vec<String> = figures
-            .map(|(c, v)| format!("{} {v:.3e}", c.name))
+        let words: Vec<String> = figures
+            .map(|(c, v)| format!("{} {}", c.name, c.shown(*v)))
             .collect();
-        text += &format!(
-            "\nAs it is, {} recordings: {}.\n",
-            base.documents.len(),
-            figures.join(", ")
-        );
+        let count = base.documents.len();
+        text += &format!("\nAs it is, {count} recordings: {}.\n", words.join(", "));
     }
     text
 }
