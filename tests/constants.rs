@@ -2,12 +2,13 @@
 #![allow(clippy::unwrap_used, reason = "a failing test should panic")]
 
 #[path = "../examples/ablation/constants.rs"]
-#[expect(dead_code, reason = "the program that measures them needs more")]
 mod constants;
 #[path = "../examples/ablation/mask.rs"]
 mod mask;
 #[path = "../examples/ablation/rows.rs"]
 mod rows;
+#[path = "../examples/ablation/uses.rs"]
+mod uses;
 
 use std::fs;
 use std::path::Path;
@@ -28,12 +29,14 @@ fn of_source() -> Vec<Constant> {
 #[test]
 fn every_constant_is_listed_with_its_value() {
     let numbers = |c: &Constant| -> Vec<(String, String, String)> {
-        let numbers = c.numbers().into_iter();
+        let numbers = c.numbers.iter();
         numbers
-            .map(|(name, value)| (c.file.clone(), name, value))
+            .map(|n| (c.file.clone(), n.name.clone(), n.value.clone()))
             .collect()
     };
-    let found: Vec<_> = of_source().iter().flat_map(numbers).collect();
+    let constants = of_source();
+    let of_lists = constants.iter().filter(|c| c.is_listed());
+    let found: Vec<_> = of_lists.flat_map(numbers).collect();
     let rows = listed().into_iter();
     let listed: Vec<_> = rows.map(|r| (r.file, r.name, r.value)).collect();
     assert_eq!(
@@ -78,7 +81,8 @@ mod tests {
     let found = of_text(text);
     assert_eq!(found.len(), 1);
     let d = &found[0];
-    assert_eq!((d.name.as_str(), d.value.as_str(), d.line), ("D", "1.0", 9));
+    assert_eq!((d.name.as_str(), d.line), ("D", 9));
+    assert_eq!(d.numbers[0].value, "1.0");
     assert_eq!(d.about, "The one that is");
 }
 
@@ -99,11 +103,20 @@ fn f() -> [f64; B] {
 }
 
 #[test]
-fn the_numbers_of_a_tuple_are_apart() {
-    let found = of_text("const A: (f64, f64) = (1e-3, -2.0);");
-    let expected = [("A.0", "1e-3"), ("A.1", "-2.0")];
+fn the_numbers_of_tuples_and_structures_are_apart() {
+    let numbers = |text: &str| -> Vec<(String, String)> {
+        let found = of_text(text);
+        let numbers = found.iter().flat_map(|c| &c.numbers);
+        numbers.map(|n| (n.name.clone(), n.value.clone())).collect()
+    };
+    let pairs = |expected: [(&str, &str); 2]| expected.map(|(n, v)| (n.to_owned(), v.to_owned()));
+    let tuple = "const A: (f64, f64) = (1e-3, -2.0);";
+    assert_eq!(numbers(tuple), pairs([("A.0", "1e-3"), ("A.1", "-2.0")]));
+    let structure = "const B: Known = Known { value: 1.0 / 3.0, std: 2.0, };";
+    let expected = pairs([("B.value", "1.0 / 3.0"), ("B.std", "2.0")]);
+    assert_eq!(numbers(structure), expected);
     assert_eq!(
-        found[0].numbers(),
-        expected.map(|(name, value)| (name.to_owned(), value.to_owned()))
+        numbers("const C: Named = Named { name: NAME, std: 2.0 };"),
+        []
     );
 }

@@ -6,50 +6,53 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::mask::{at_depth_0, code, is_of_name, places};
+use super::uses::{is_compiled, uses};
 
-/// The folders of the source whose constants are listed.
-pub(crate) const FOLDERS: [&str; 5] = ["detect", "signal", "sequence", "timing", "analysis"];
+/// Where the constants are that are listed, from the folder of the source on.
+pub(crate) const LISTED: [&str; 6] = [
+    "analysis/",
+    "detect/",
+    "physics/priors.rs",
+    "sequence/",
+    "signal/",
+    "timing/",
+];
 
-/// A constant made of numbers: one, a tuple or an array.
+/// A constant. One that is not listed is known where it is made of listed ones.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Constant {
     /// Its file, from the folder of the source on.
-    pub file: String,
+    pub(crate) file: String,
     /// Its line, from 1.
-    pub line: usize,
-    pub name: String,
-    pub of: String,
-    pub value: String,
+    pub(crate) line: usize,
+    pub(crate) name: String,
+    /// Its type.
+    pub(crate) of: String,
     /// The first sentence of its comment.
-    pub about: String,
+    pub(crate) about: String,
+    /// The numbers that can be changed, each for itself.
+    pub(crate) numbers: Vec<Number>,
     /// Whether the compiler has to know it: the length of an array, or what such a length is made of.
     pub(crate) structural: bool,
     /// From `const` to the semicolon, in bytes of the file.
-    pub item: Range<usize>,
+    pub(crate) item: Range<usize>,
     /// What stands between `=` and the semicolon.
-    pub expression: Range<usize>,
+    pub(crate) expression: Range<usize>,
+}
+
+/// A number of a constant: all of it, an element of a tuple or a field of a structure.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Number {
+    /// The name of the constant, and that of the element or field after a dot.
+    pub(crate) name: String,
+    pub(crate) value: String,
+    /// Where its value stands in the file.
+    pub(crate) place: Range<usize>,
 }
 
 impl Constant {
-    /// The name that no other constant has.
-    pub(crate) fn key(&self) -> String {
-        format!("{}::{}", self.file, self.name)
-    }
-
-    /// The numbers that are changed one at a time: those of a tuple, else the whole.
-    pub(crate) fn numbers(&self) -> Vec<(String, String)> {
-        let inner = self
-            .value
-            .strip_prefix('(')
-            .filter(|_| self.of.starts_with('('));
-        let Some(inner) = inner.and_then(|v| v.strip_suffix(')')) else {
-            return vec![(self.name.clone(), self.value.clone())];
-        };
-        let elements = inner.split(',').map(str::trim).filter(|e| !e.is_empty());
-        let numbered = elements.enumerate();
-        numbered
-            .map(|(i, value)| (format!("{}.{i}", self.name), value.to_owned()))
-            .collect()
+    pub(crate) fn is_listed(&self) -> bool {
+        !self.numbers.is_empty() && LISTED.iter().any(|place| self.file.starts_with(place))
     }
 }
 
@@ -57,9 +60,9 @@ impl Constant {
 #[derive(Debug)]
 pub(crate) struct Source {
     /// Its path from the folder of the source on, with slashes.
-    pub file: String,
-    pub text: String,
-    pub code: String,
+    pub(crate) file: String,
+    pub(crate) text: String,
+    pub(crate) code: String,
 }
 
 /// All files of the source but for those that hold nothing but tests, in order.
@@ -91,36 +94,61 @@ fn add_paths(folder: &Path, paths: &mut Vec<PathBuf>) -> io::Result<()> {
     Ok(())
 }
 
-/// The constants of the folders that are listed, in order of file and line.
+/// The constants that are listed, in order of file and line, and after them those that are made of them.
 pub(crate) fn constants(sources: &[Source]) -> Vec<Constant> {
-    let listed = sources.iter().filter(|source| {
-        let folder = source.file.split('/').next().unwrap_or_default();
-        FOLDERS.contains(&folder)
-    });
-    let mut found: Vec<Constant> = listed.flat_map(of_file).collect();
+    let all = sources.iter().flat_map(of_file);
+    let (mut found, mut rest): (Vec<Constant>, Vec<Constant>) = all.partition(Constant::is_listed);
     let mut known = 0;
-    // What a structural constant is made of is structural too.
-    loop {
-        for i in 0..found.len() {
-            found[i].structural |= is_structural(&found[i], sources, &found);
+    while known < found.len() {
+        known = found.len();
+        let (new, others) = rest.into_iter().partition(|constant| {
+            let names = found.iter().map(|c| &c.name);
+            let source = sources.iter().find(|s| s.file == constant.file);
+            let code = source.map_or("", |s| &s.code[constant.expression.clone()]);
+            names.into_iter().any(|name| !places(code, name).is_empty())
+        });
+        found.extend::<Vec<Constant>>(new);
+        rest = others;
+    }
+    mark_structural(&mut found, sources);
+    found
+}
+
+/// What the compiler has to know, and what that is made of.
+fn mark_structural(constants: &mut [Constant], sources: &[Source]) {
+    let used: Vec<Vec<(usize, usize)>> = constants
+        .iter()
+        .map(|constant| {
+            let places = sources.iter().enumerate().flat_map(|(i, source)| {
+                let used = uses(constant, source, sources).into_iter();
+                used.map(move |at| (i, at))
+            });
+            places.collect()
+        })
+        .collect();
+    let mut marked = true;
+    while marked {
+        marked = false;
+        for (i, used) in used.iter().enumerate() {
+            let is_structural = used.iter().any(|&(source, at)| {
+                let source = &sources[source];
+                let in_structural = constants
+                    .iter()
+                    .any(|c| c.structural && c.file == source.file && c.item.contains(&at));
+                in_structural || is_compiled(&source.code, at)
+            });
+            marked |= is_structural && !constants[i].structural;
+            constants[i].structural |= is_structural;
         }
-        let structural = found.iter().filter(|c| c.structural).count();
-        if structural == known {
-            return found;
-        }
-        known = structural;
     }
 }
 
 fn of_file(source: &Source) -> Vec<Constant> {
-    let starts = places(&source.code, "const");
-    starts
-        .into_iter()
-        .filter_map(|at| constant(source, at))
-        .collect()
+    let starts = places(&source.code, "const").into_iter();
+    starts.filter_map(|at| constant(source, at)).collect()
 }
 
-/// The constant whose `const` stands at a place; none where it is none, or not made of numbers.
+/// The constant whose `const` stands at a place; none where it is none.
 fn constant(source: &Source, at: usize) -> Option<Constant> {
     let Source { file, text, code } = source;
     let from = at + "const".len();
@@ -136,40 +164,104 @@ fn constant(source: &Source, at: usize) -> Option<Constant> {
     let equals = at_depth_0(code, colon, b"=;")?;
     let end = at_depth_0(code, equals, b";")?;
     let of = code[colon + 1..equals].trim();
-    (is_made_of_numbers(of)).then(|| Constant {
+    Some(Constant {
         file: file.clone(),
         line: text[..at].matches('\n').count() + 1,
         name: name.to_owned(),
         of: of.to_owned(),
-        value: text[equals + 1..end]
-            .split_whitespace()
-            .collect::<Vec<_>>()
-            .join(" "),
         about: about(&text[..at]),
+        numbers: numbers(source, name, of, equals + 1..end),
         structural: false,
         item: at..end + 1,
         expression: equals + 1..end,
     })
 }
 
+/// The numbers of an expression of a type; none where it is made of something else too.
+fn numbers(source: &Source, name: &str, of: &str, expression: Range<usize>) -> Vec<Number> {
+    let code = &source.code[expression.clone()];
+    let number = |suffix: &str, place: Range<usize>| {
+        let place = trimmed(&source.code, place);
+        let value = source.text[place.clone()].split_whitespace();
+        Number {
+            name: format!("{name}{suffix}"),
+            value: value.collect::<Vec<_>>().join(" "),
+            place,
+        }
+    };
+    if is_made_of_numbers(of) && !of.starts_with('(') {
+        return vec![number("", expression)];
+    }
+    let (open, close) = if is_made_of_numbers(of) {
+        ('(', ')')
+    } else {
+        ('{', '}')
+    };
+    let is_structure = of.bytes().all(|b| is_of_name(b) || b == b':') && of != "Self";
+    let (Some(from), Some(to)) = (code.find(open), code.rfind(close)) else {
+        return Vec::new();
+    };
+    if open == '{' && !(is_structure && code[..from].trim() == of) {
+        return Vec::new();
+    }
+    let inside = expression.start + from + 1..expression.start + to;
+    let mut found = Vec::new();
+    for (i, element) in elements(&source.code, inside).into_iter().enumerate() {
+        let text = &source.code[element.clone()];
+        let (suffix, place) = match text.split_once(':') {
+            Some((field, value)) if open == '{' => (
+                format!(".{}", field.trim()),
+                element.end - value.len()..element.end,
+            ),
+            _ => (format!(".{i}"), element),
+        };
+        // A field of another kind makes the whole no constant of numbers.
+        if !source.code[place.clone()].contains(|c: char| c.is_ascii_digit()) {
+            return Vec::new();
+        }
+        found.push(number(&suffix, place));
+    }
+    found
+}
+
+/// What stands between commas.
+fn elements(code: &str, inside: Range<usize>) -> Vec<Range<usize>> {
+    let mut found = Vec::new();
+    let mut from = inside.start;
+    while from < inside.end {
+        let to = at_depth_0(code, from, b",").map_or(inside.end, |at| at.min(inside.end));
+        if !code[from..to].trim().is_empty() {
+            found.push(from..to);
+        }
+        from = to + 1;
+    }
+    found
+}
+
+fn trimmed(code: &str, range: Range<usize>) -> Range<usize> {
+    let text = &code[range.clone()];
+    let start = range.start + text.len() - text.trim_start().len();
+    start..start + text.trim().len()
+}
+
 fn is_made_of_numbers(of: &str) -> bool {
-    let words = of
+    let mut words = of
         .split(|c: char| !is_of_name(c as u8))
         .filter(|w| !w.is_empty());
     let number = |w: &str| {
         matches!(w, "f32" | "f64" | "usize" | "u32" | "u64" | "i32") || w.parse::<u32>().is_ok()
     };
-    let brackets = of
+    let plain = of
         .chars()
         .all(|c| is_of_name(c as u8) || " ()[];,".contains(c));
-    brackets && words.into_iter().all(number)
+    plain && words.all(number)
 }
 
-/// The first sentence of the comment that ends a text; that of the constant before where this one has none of its own.
+/// The first sentence of the comment that ends a text; that of the constants just before where this one has none.
 fn about(text: &str) -> String {
     let lines = text.lines().rev().skip(usize::from(!text.ends_with('\n')));
-    let lines =
-        lines.skip_while(|l| l.trim_start().starts_with("const ") || l.contains(") const "));
+    let is_constant = |l: &&str| l.trim_start().starts_with("const ") || l.contains(") const ");
+    let lines = lines.skip_while(is_constant);
     let lines = lines.skip_while(|l| l.trim_start().starts_with("#["));
     let comment = lines.map_while(|l| l.trim_start().strip_prefix("///"));
     let mut comment: Vec<&str> = comment.map(str::trim).collect();
@@ -179,113 +271,4 @@ fn about(text: &str) -> String {
     whole[..end]
         .trim_end_matches(['.', ':', '…', ' '])
         .to_owned()
-}
-
-fn is_structural(constant: &Constant, sources: &[Source], all: &[Constant]) -> bool {
-    sources.iter().any(|source| {
-        uses(constant, source).into_iter().any(|at| {
-            let own = source.file == constant.file && constant.item.contains(&at);
-            !own && (is_compiled(&source.code, at) || is_in_structural(source, at, all))
-        })
-    })
-}
-
-/// Where a constant is used in a file: by its name in its own file or where it is imported, elsewhere by a path.
-pub(crate) fn uses(constant: &Constant, source: &Source) -> Vec<usize> {
-    let own = source.file == constant.file;
-    let module = module(&constant.file);
-    let imports = imports(&source.code);
-    let import = |at: usize| imports.iter().find(|range| range.contains(&at));
-    let at = places(&source.code, &constant.name);
-    let is_parent = constant.file == parent(&source.file);
-    let imported = at.iter().any(|&at| {
-        import(at).is_some_and(|range| {
-            let path = &source.code[range.start..at];
-            path.contains(&format!("{module}::")) || (is_parent && path.contains("super::"))
-        })
-    });
-    let used = at.into_iter().filter(|&at| import(at).is_none());
-    used.filter(|&at| match path_before(&source.code, at) {
-        Some(before) => before == module || (own && before == "Self"),
-        None => own || imported,
-    })
-    .collect()
-}
-
-/// The name of the module of a file.
-fn module(file: &str) -> &str {
-    let stem = file
-        .strip_suffix("/mod.rs")
-        .or_else(|| file.strip_suffix(".rs"))
-        .unwrap_or(file);
-    stem.rsplit('/').next().unwrap_or(stem)
-}
-
-/// The file of the module above that of a file.
-fn parent(file: &str) -> String {
-    let inside = file.strip_suffix("/mod.rs").unwrap_or(file);
-    let folder = inside.rsplit_once('/').map_or("", |(folder, _)| folder);
-    format!("{folder}/mod.rs")
-}
-
-/// Where the path begins whose last name stands at a place.
-pub(crate) fn path_start(code: &str, at: usize) -> usize {
-    match path_before(code, at) {
-        Some(before) => path_start(code, at - "::".len() - before.len()),
-        None => at,
-    }
-}
-
-/// The last name before `::` before a place.
-fn path_before(code: &str, at: usize) -> Option<&str> {
-    let path = code[..at].strip_suffix("::")?;
-    let from = path
-        .rfind(|c: char| !is_of_name(c as u8))
-        .map_or(0, |i| i + 1);
-    Some(&path[from..])
-}
-
-/// From `use` to the semicolon.
-fn imports(code: &str) -> Vec<Range<usize>> {
-    let starts = places(code, "use").into_iter();
-    starts
-        .filter_map(|at| Some(at..at + code[at..].find(';')?))
-        .collect()
-}
-
-/// Whether the compiler has to know what stands at a place: the length of an array, or a parameter of a type.
-fn is_compiled(code: &str, at: usize) -> bool {
-    let before = code[..at].trim_end();
-    if before.ends_with("::<") {
-        return true;
-    }
-    let Some(open) = enclosing(code, at) else {
-        return false;
-    };
-    let outside = code[..open].trim_end();
-    match code.as_bytes()[open] {
-        b'[' => code[open..at].contains(';') && !outside.ends_with('!'),
-        b'{' => outside.ends_with('<'),
-        b'(' => is_compiled(code, open),
-        _ => false,
-    }
-}
-
-/// The bracket that encloses a place.
-fn enclosing(code: &str, at: usize) -> Option<usize> {
-    let mut depth = 0_i32;
-    for (i, byte) in code.as_bytes()[..at].iter().enumerate().rev() {
-        match byte {
-            b'}' | b')' | b']' => depth += 1,
-            b'{' | b'(' | b'[' if depth == 0 => return Some(i),
-            b'{' | b'(' | b'[' => depth -= 1,
-            _ => {}
-        }
-    }
-    None
-}
-
-fn is_in_structural(source: &Source, at: usize, all: &[Constant]) -> bool {
-    all.iter()
-        .any(|c| c.structural && c.file == source.file && c.item.contains(&at))
 }

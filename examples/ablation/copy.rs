@@ -5,8 +5,9 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use super::constants::{Constant, Source, path_start, uses};
+use super::constants::{Constant, Source};
 use super::mask::places;
+use super::uses::{path_before, uses};
 
 /// What the copy asks for its constants.
 const TUNED: &str = include_str!("tuned.rs");
@@ -27,7 +28,7 @@ pub(crate) fn make(
             sources.iter().find(|source| source.file == file)
         });
         let bytes = match source {
-            Some(source) => rewritten(source, constants).into_bytes(),
+            Some(source) => rewritten(source, sources, constants).into_bytes(),
             None => fs::read(&path)?,
         };
         put(&to.join(inside), &bytes)?;
@@ -77,38 +78,12 @@ fn put(path: &Path, bytes: &[u8]) -> io::Result<()> {
 }
 
 /// A source whose constants are functions that ask for their value.
-fn rewritten(source: &Source, constants: &[Constant]) -> String {
-    let mut edits: Vec<(usize, usize, String)> = Vec::new();
-    for constant in constants.iter().filter(|c| !c.structural) {
-        if source.file == constant.file {
-            let (item, value) = (&constant.item, &constant.expression);
-            edits.push((item.start, value.start, before(constant)));
-            edits.push((value.end, item.end, ")); &VALUE }".to_owned()));
-        }
-        let declared = |at: usize| {
-            source.file == constant.file
-                && (constant.item.start..constant.expression.start).contains(&at)
-        };
-        for at in uses(constant, source) {
-            let end = at + constant.name.len();
-            if !declared(at) {
-                let start = path_start(&source.code, at);
-                edits.push((start, start, "(*".to_owned()));
-                edits.push((end, end, "())".to_owned()));
-            }
-        }
-    }
-    if !edits.is_empty() {
-        // What asks for a value is not constant.
-        let constants = places(&source.code, "const").into_iter();
-        let of_functions = constants.filter(|&at| source.code[at..].starts_with("const fn "));
-        edits.extend(of_functions.map(|at| (at, at + "const ".len(), String::new())));
-    }
+fn rewritten(source: &Source, sources: &[Source], constants: &[Constant]) -> String {
+    let mut edits = edits(source, sources, constants);
     edits.sort();
-    edits.dedup();
     let mut text = String::new();
     let mut done = 0;
-    for (from, to, new) in edits {
+    for (from, to, _, new) in edits {
         text += &source.text[done..from];
         text += &new;
         done = to;
@@ -116,7 +91,9 @@ fn rewritten(source: &Source, constants: &[Constant]) -> String {
     text += &source.text[done..];
     // Messages name constants too, and are not code.
     for constant in constants.iter().filter(|c| c.file == source.file) {
-        text = text.replace(&format!("{{{}}}", constant.name), &constant.value);
+        if let [number] = constant.numbers.as_slice() {
+            text = text.replace(&format!("{{{}}}", constant.name), &number.value);
+        }
     }
     if source.file == "lib.rs" {
         // What a linter says of the copy interests nobody.
@@ -125,10 +102,63 @@ fn rewritten(source: &Source, constants: &[Constant]) -> String {
     text
 }
 
-fn before(constant: &Constant) -> String {
-    let (name, of, key) = (&constant.name, &constant.of, constant.key());
-    format!(
-        "fn {name}() -> &'static {of} {{ static VALUE: std::sync::LazyLock<{of}> = std::sync::LazyLock::new(|| \
-         crate::ablation::tuned(\"{key}\", "
-    )
+/// From, to and what comes in its place, in bytes of a source. Of those at one place the one of the lower rank comes first.
+type Edit = (usize, usize, Rank, String);
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Rank {
+    First,
+    Second,
+}
+
+fn edits(source: &Source, sources: &[Source], constants: &[Constant]) -> Vec<Edit> {
+    let mut edits = Vec::new();
+    for constant in constants.iter().filter(|c| !c.structural) {
+        if source.file == constant.file {
+            add_declaration(constant, &mut edits);
+        }
+        for at in uses(constant, source, sources) {
+            let (start, end) = (path_start(&source.code, at), at + constant.name.len());
+            edits.push((start, start, Rank::Second, "(*".to_owned()));
+            edits.push((end, end, Rank::First, "())".to_owned()));
+        }
+    }
+    if !edits.is_empty() {
+        // What asks for a value is not constant.
+        let constants = places(&source.code, "const").into_iter();
+        let of_functions = constants.filter(|&at| source.code[at..].starts_with("const fn "));
+        edits.extend(of_functions.map(|at| (at, at + "const ".len(), Rank::First, String::new())));
+    }
+    edits
+}
+
+fn add_declaration(constant: &Constant, edits: &mut Vec<Edit>) {
+    let Constant {
+        name,
+        of,
+        item,
+        expression,
+        ..
+    } = constant;
+    let lazy = "std::sync::LazyLock";
+    let before =
+        format!("fn {name}() -> &'static {of} {{ static VALUE: {lazy}<{of}> = {lazy}::new(|| ");
+    edits.push((item.start, expression.start, Rank::First, before));
+    for number in constant.numbers.iter().filter(|_| constant.is_listed()) {
+        let key = format!("{}::{}", constant.file, number.name);
+        let (start, end) = (number.place.start, number.place.end);
+        let ask = format!("crate::ablation::tuned(\"{key}\", ");
+        edits.push((start, start, Rank::First, ask));
+        edits.push((end, end, Rank::Second, ")".to_owned()));
+    }
+    let after = "); &VALUE }".to_owned();
+    edits.push((expression.end, item.end, Rank::First, after));
+}
+
+/// Where the path begins whose last name stands at a place.
+fn path_start(code: &str, at: usize) -> usize {
+    match path_before(code, at) {
+        Some(before) => path_start(code, at - "::".len() - before.len()),
+        None => at,
+    }
 }

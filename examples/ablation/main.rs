@@ -25,6 +25,7 @@ mod rows;
 mod run;
 mod score;
 mod table;
+mod uses;
 
 use std::env;
 use std::fs;
@@ -109,11 +110,12 @@ fn list(place: &Place) {
     for row in gone {
         println!("gone: {}::{}", row.file, row.name);
     }
-    let structural = place.constants.iter().filter(|c| c.structural).count();
+    let listed: Vec<&Constant> = place.constants.iter().filter(|c| c.is_listed()).collect();
+    let structural = listed.iter().filter(|c| c.structural).count();
     let tuned = entries.iter().filter(|e| e.is_tuned()).count();
     println!(
         "{} constants, {structural} of which the compiler has to know; {tuned} numbers can be changed",
-        place.constants.len(),
+        listed.len(),
     );
 }
 
@@ -121,7 +123,9 @@ fn list(place: &Place) {
 fn measure(place: &Place, part: &str) {
     let copy = place.work.join("copy");
     let (entries, _) = place.entries();
-    let asked = entries.iter().filter(|e| e.constant.key().contains(part));
+    let asked = entries
+        .iter()
+        .filter(|e| format!("{}::{}", e.row.file, e.row.name).contains(part));
     let changes: Vec<String> = asked
         .flat_map(Entry::changes)
         .filter(|c| !c.is_empty())
@@ -149,6 +153,9 @@ fn build(copy: &Path, work: &Path) -> PathBuf {
             "build",
             "--release",
             "--offline",
+            "--no-default-features",
+            "--features",
+            "lab",
             "--example",
             "ablation",
             "--target-dir",

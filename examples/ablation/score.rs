@@ -1,11 +1,11 @@
 //! One run over the suite.
 
 use std::collections::hash_map::DefaultHasher;
+use std::error::Error;
 use std::fs;
 use std::hash::{Hash, Hasher};
 use std::path::{Path, PathBuf};
 
-use bounce_audio::Error;
 use bounce_audio::analysis::{Settings, analyze_clearest};
 use bounce_audio::evaluate::reference::Reference;
 use bounce_audio::evaluate::rows::{Evaluation, Tier};
@@ -20,7 +20,7 @@ use super::figures::{COLUMNS, Figures};
 const DRAWS: usize = 100;
 
 /// Analyzes and scores the recordings of a folder.
-pub(crate) fn suite(folder: &Path) -> Result<Figures, Error> {
+pub(crate) fn suite(folder: &Path) -> Result<Figures, Box<dyn Error>> {
     let mut paths: Vec<PathBuf> = fs::read_dir(folder)?
         .filter_map(|entry| Some(entry.ok()?.path()))
         .filter(|path| path.extension().is_some_and(|e| e == "samples"))
@@ -46,7 +46,7 @@ pub(crate) fn suite(folder: &Path) -> Result<Figures, Error> {
     })
 }
 
-fn one(path: &Path) -> Result<(u64, FileScore), Error> {
+fn one(path: &Path) -> Result<(u64, FileScore), Box<dyn Error>> {
     let reference = Reference::from_json(&fs::read_to_string(path.with_extension("json"))?)?;
     let (rate, channels) = samples(&fs::read(path)?);
     let (_, analysis) = analyze_clearest(&channels, rate, &Settings::default())?;
@@ -69,13 +69,13 @@ fn samples(bytes: &[u8]) -> (f64, Vec<Vec<f32>>) {
 }
 
 /// Makes the recordings of all scenes, with their truth, in a folder.
-pub(crate) fn make_suite(folder: &Path, seeds: u64) -> Result<(), Error> {
+pub(crate) fn make_suite(folder: &Path, seeds: u64) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     for name in presets::names() {
         for seed in 1..=seeds {
             let made = render(&presets::preset(name)?, seed)?;
             let path = folder.join(format!("{name}-{seed}.samples"));
-            let truth = serde_json::to_string(&made.truth).map_err(std::io::Error::from)?;
+            let truth = serde_json::to_string(&made.truth)?;
             fs::write(path.with_extension("json"), truth)?;
             let mut channels = vec![made.samples];
             channels.extend(made.more_channels);

@@ -26,7 +26,8 @@ pub(crate) struct Entry<'a> {
 
 /// All numbers of the constants with what is known of them; and the rows of which nothing is left.
 pub(crate) fn entries(constants: &[Constant], mut old: Vec<Row>) -> (Vec<Entry<'_>>, Vec<Row>) {
-    let mut entries: Vec<Entry> = constants.iter().flat_map(fresh).collect();
+    let listed = constants.iter().filter(|c| c.is_listed());
+    let mut entries: Vec<Entry> = listed.flat_map(fresh).collect();
     let mut open: Vec<&mut Entry> = entries.iter_mut().collect();
     // A constant keeps its place; or it moved, or has another name.
     let same: [fn(&Row, &Row) -> bool; 4] = [
@@ -49,13 +50,12 @@ pub(crate) fn entries(constants: &[Constant], mut old: Vec<Row>) -> (Vec<Entry<'
 
 fn fresh(constant: &Constant) -> impl Iterator<Item = Entry<'_>> {
     let class = if constant.structural { STRUCTURAL } else { "" };
-    let numbers = constant.numbers().into_iter();
-    numbers.map(move |(name, value)| Entry {
+    constant.numbers.iter().map(move |number| Entry {
         constant,
         row: Row {
             file: constant.file.clone(),
-            name,
-            value,
+            name: number.name.clone(),
+            value: number.value.clone(),
             class: class.to_owned(),
             ..Row::default()
         },

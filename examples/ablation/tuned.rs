@@ -4,38 +4,31 @@
 /// The variable of the environment that names the number to change and how: `file.rs::NAME=half`, `=double` or a value.
 const VARIABLE: &str = "BOUNCE_AUDIO_ABLATION";
 
-/// A constant made of numbers.
+/// A number, or an array of them.
 pub(crate) trait Tuned: Copy {
-    /// The constant, changed by a rule.
+    /// The number, changed by a rule.
     fn changed(self, change: &Change) -> Self;
 }
 
-/// How a number is changed, and which of a tuple.
+/// How a number is changed.
 #[derive(Debug)]
 pub(crate) struct Change {
     how: String,
-    element: Option<usize>,
     named_for_unit: bool,
 }
 
-/// The constant of a key as this run of the program has it.
+/// The number of a key as this run of the program has it.
 pub(crate) fn tuned<T: Tuned>(key: &str, value: T) -> T {
     let asked = std::env::var(VARIABLE).unwrap_or_default();
-    let Some((of, how)) = asked.split_once('=') else {
+    let Some((_, how)) = asked.split_once('=').filter(|(of, _)| *of == key) else {
         return value;
     };
-    let (name, element) = match of.rsplit_once('.') {
-        Some((name, digits)) if digits.parse::<usize>().is_ok() => (name, digits.parse().ok()),
-        _ => (of, None),
-    };
-    if name != key {
-        return value;
-    }
-    let units = ["_S", "_HZ", "_M", "_DB"];
+    // `file.rs::NAME`, with an element or field after another dot.
+    let name = key.rsplit("::").next().and_then(|name| name.split('.').next());
+    let units = ["_S", "_HZ", "_M", "_DB", "_S2"];
     value.changed(&Change {
         how: how.to_owned(),
-        element,
-        named_for_unit: units.iter().any(|unit| key.ends_with(unit)),
+        named_for_unit: name.is_some_and(|name| units.iter().any(|unit| name.ends_with(unit))),
     })
 }
 
@@ -85,15 +78,5 @@ whole!(usize, u32, u64, i32);
 impl<T: Tuned, const N: usize> Tuned for [T; N] {
     fn changed(self, change: &Change) -> Self {
         self.map(|x| x.changed(change))
-    }
-}
-
-impl<A: Tuned, B: Tuned> Tuned for (A, B) {
-    fn changed(self, change: &Change) -> Self {
-        match change.element {
-            Some(0) => (self.0.changed(change), self.1),
-            Some(1) => (self.0, self.1.changed(change)),
-            _ => self,
-        }
     }
 }
