@@ -37,9 +37,13 @@ pub(crate) fn suite(folder: &Path) -> Result<Figures, Box<dyn Error>> {
     let thresholds = Thresholds::from_toml(text)?;
     let evaluation = evaluation(files.clone());
     let rows = evaluation.rows.iter().chain(&evaluation.scenes);
+    let complaints = thresholds.complaints(rows);
+    for complaint in &complaints {
+        eprintln!("{complaint}");
+    }
     Ok(Figures {
         documents,
-        missed: thresholds.complaints(rows).len(),
+        missed: complaints.len(),
         cpu_s: cpu_s(),
         all: figures(&evaluation),
         drawn: drawn(&files),
