@@ -77,6 +77,12 @@ impl Entry<'_> {
         !self.constant.structural && !self.row.class.starts_with(STRUCTURAL)
     }
 
+    /// Whether what it rests on is judgement or a figure of the suite, and not a formula, a convention or a limit.
+    pub(crate) fn is_open(&self) -> bool {
+        let class = self.row.class.as_str();
+        class.is_empty() || class.starts_with("unproven") || class.starts_with("measured")
+    }
+
     /// Halved, doubled and switched off, as the changed program takes it; empty where there is no such change.
     pub(crate) fn changes(&self) -> [String; 3] {
         let Row {
