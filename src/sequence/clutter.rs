@@ -30,14 +30,14 @@ pub struct Clutter {
 
 /// Events that are no clutter, because a chain explains them.
 #[derive(Debug, Clone, Default)]
-pub struct Explained {
+pub struct Associated {
     /// In order of time.
     events: Vec<Event>,
     /// Their strengths, ascending.
     strengths: Vec<f64>,
 }
 
-impl Explained {
+impl Associated {
     /// These events, in order of time.
     #[must_use]
     pub fn new(events: Vec<Event>) -> Self {
@@ -100,25 +100,25 @@ impl Clutter {
     /// whose prior is what the whole recording says. What is stronger than all clutter (by s − `s_max`) noise offers
     /// the less often, as its tail falls with θ nats; what is left is κ, the rate of knocks.
     #[must_use]
-    pub fn rate_per_s(&self, event: &Event, explained: &Explained) -> f64 {
+    pub fn rate_per_s(&self, event: &Event, associated: &Associated) -> f64 {
         let strength = event.strength;
         let centre = bin_of(event.time_s - self.start_s);
         let (first, last) = (
             centre.saturating_sub(REACH),
             (centre + REACH).min(self.bins.len() - 1),
         );
-        // An event that is explained does not count anyhow; any other is not its own clutter.
-        let itself = usize::from(!explained.contains(event));
+        // An event that a chain owns does not count anyhow; any other is not its own clutter.
+        let itself = usize::from(!associated.contains(event));
         let border_s = |bin: usize| self.start_s + real(bin) * BIN_S;
-        let known_near = itself + explained.near(strength, border_s(first), border_s(last + 1));
-        let known = itself + alike(&explained.strengths, strength);
+        let known_near = itself + associated.near(strength, border_s(first), border_s(last + 1));
+        let known = itself + alike(&associated.strengths, strength);
         let all_near: usize = self.bins[first..=last]
             .iter()
             .map(|bin| alike(bin, strength))
             .sum();
         let near = real(all_near.saturating_sub(known_near));
         let unseen = UNSEEN
-            * (-(strength - self.strongest(explained)).max(0.0) / self.tail(explained)).exp();
+            * (-(strength - self.strongest(associated)).max(0.0) / self.tail(associated)).exp();
         let others = real(alike(&self.all, strength).saturating_sub(known));
         let whole = (others + unseen) / self.duration_s() + KNOCKS_PER_S;
         let span_s =
@@ -127,8 +127,8 @@ impl Clutter {
     }
 
     /// Strength of the strongest clutter.
-    fn strongest(&self, explained: &Explained) -> f64 {
-        let pairs = self.all.iter().rev().zip(explained.strengths.iter().rev());
+    fn strongest(&self, associated: &Associated) -> f64 {
+        let pairs = self.all.iter().rev().zip(associated.strengths.iter().rev());
         let known = pairs.take_while(|(a, e)| a <= e).count();
         self.all
             .len()
@@ -136,10 +136,13 @@ impl Clutter {
             .map_or(0.0, |i| self.all[i])
     }
 
-    /// θ of an exponential tail: between the 0.9 and the 0.99 quantile of the clutter it falls tenfold. What is
-    /// explained is taken to be stronger than that.
-    fn tail(&self, explained: &Explained) -> f64 {
-        let last = self.all.len().saturating_sub(explained.strengths.len() + 1);
+    /// θ of an exponential tail: between the 0.9 and the 0.99 quantile of the clutter it falls tenfold. The associated
+    /// events are taken to be stronger than that.
+    fn tail(&self, associated: &Associated) -> f64 {
+        let last = self
+            .all
+            .len()
+            .saturating_sub(associated.strengths.len() + 1);
         let at = |share: f64| {
             self.all
                 .get(crate::units::whole(share * real(last)))
@@ -169,18 +172,18 @@ fn bin_of(after_start_s: f64) -> usize {
 pub struct Rates<'a> {
     events: &'a [Event],
     clutter: &'a Clutter,
-    explained: Explained,
+    associated: Associated,
     ln_per_s: Vec<Option<f64>>,
 }
 
 impl<'a> Rates<'a> {
-    /// The rates at some events among clutter where some of them, indices in order, are explained and so no clutter.
+    /// The rates at some events among clutter where some of them, indices in order, are associated and so no clutter.
     #[must_use]
-    pub fn new(events: &'a [Event], clutter: &'a Clutter, explained: &[usize]) -> Self {
+    pub fn new(events: &'a [Event], clutter: &'a Clutter, associated: &[usize]) -> Self {
         Self {
             events,
             clutter,
-            explained: Explained::new(explained.iter().map(|&i| events[i]).collect()),
+            associated: Associated::new(associated.iter().map(|&i| events[i]).collect()),
             ln_per_s: vec![None; events.len()],
         }
     }
@@ -189,7 +192,7 @@ impl<'a> Rates<'a> {
     pub(super) fn ln_per_s(&mut self, event: usize) -> f64 {
         *self.ln_per_s[event].get_or_insert_with(|| {
             self.clutter
-                .rate_per_s(&self.events[event], &self.explained)
+                .rate_per_s(&self.events[event], &self.associated)
                 .ln()
         })
     }
@@ -210,14 +213,14 @@ mod tests {
             })
             .collect();
         let clutter = Clutter::new(&events);
-        let strong = clutter.rate_per_s(&events[500], &Explained::default());
+        let strong = clutter.rate_per_s(&events[500], &Associated::default());
         let faint = Event {
             time_s: 10.0,
             jitter_s: 1e-4,
             strength: 3.0,
             loudness: 0.0,
         };
-        let weak = clutter.rate_per_s(&faint, &Explained::default());
+        let weak = clutter.rate_per_s(&faint, &Associated::default());
         assert!((0.1..0.6).contains(&strong), "{strong}");
         assert!((weak - 35.0).abs() < 2.0, "{weak}");
         let own: Vec<Event> = events
@@ -225,7 +228,7 @@ mod tests {
             .copied()
             .filter(|e| e.strength > 40.0)
             .collect();
-        let alone = clutter.rate_per_s(&events[500], &Explained::new(own));
+        let alone = clutter.rate_per_s(&events[500], &Associated::new(own));
         assert!(alone < 0.25 * strong, "{alone} {strong}");
     }
 
@@ -239,7 +242,7 @@ mod tests {
                 loudness: 0.0,
             });
             let events: Vec<Event> = events.collect();
-            Clutter::new(&events).rate_per_s(&events[200], &Explained::default())
+            Clutter::new(&events).rate_per_s(&events[200], &Associated::default())
         };
         let (alike, louder) = (knocks(0.9 * LOUDER * 100.0), knocks(1.1 * LOUDER * 100.0));
         assert!(louder < 0.01 * alike, "{louder} {alike}");

@@ -38,10 +38,10 @@ pub fn find(events: &[Event]) -> Found {
     let clutter = Clutter::new(events);
     let scene = Scene::new(events, &clutter);
     let mut taken = vec![false; events.len()];
-    let mut explained = vec![false; events.len()];
+    let mut associated = vec![false; events.len()];
     let mut drops: Vec<Track> = Vec::new();
     loop {
-        let left: Vec<usize> = (0..events.len()).filter(|&i| !explained[i]).collect();
+        let left: Vec<usize> = (0..events.len()).filter(|&i| !associated[i]).collect();
         let found = disjoint(events, &left, &drops);
         if found.is_empty() {
             break;
@@ -51,7 +51,7 @@ pub fn find(events: &[Event]) -> Found {
                 taken[i] = true;
             }
             for i in reasons::own_sounds(&scene, &track) {
-                explained[i] = true;
+                associated[i] = true;
             }
             drops.push(track);
         }

@@ -94,8 +94,8 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
                 .iter()
                 .filter(|h| h.doubt.unheard == 0)
                 .max_by(|a, b| a.score.total_cmp(&b.score));
-            if let Some(&leader) = heard.filter(|h| h.score > best.score) {
-                best = leader;
+            if let Some(&best_heard) = heard.filter(|h| h.score > best.score) {
+                best = best_heard;
             }
         }
         self.steps_to(best.last)

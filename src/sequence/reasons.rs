@@ -71,11 +71,11 @@ fn delay_after(chain: &Chain, time_s: f64) -> Option<f64> {
 }
 
 /// Which events a chain explains, in order: its impacts and their echoes.
-pub(super) fn explained(scene: &Scene<'_>, track: &Track) -> Vec<usize> {
+pub(super) fn associated(scene: &Scene<'_>, track: &Track) -> Vec<usize> {
     let echoes = own_echoes(scene, track);
-    let mut explained = track.events.clone();
+    let mut associated = track.events.clone();
     for impact in &track.chain.impacts {
-        explained.extend(
+        associated.extend(
             scene
                 .between(impact.time_s, impact.time_s + LONGEST_DELAY_S)
                 .filter(|&i| {
@@ -84,14 +84,14 @@ pub(super) fn explained(scene: &Scene<'_>, track: &Track) -> Vec<usize> {
                 }),
         );
     }
-    explained.sort_unstable();
-    explained.dedup();
-    explained
+    associated.sort_unstable();
+    associated.dedup();
+    associated
 }
 
 /// Which events the sound of a chain accounts for: what it explains, and what is near one of its impacts and weaker.
 pub(super) fn own_sounds(scene: &Scene<'_>, track: &Track) -> Vec<usize> {
-    let mut own = explained(scene, track);
+    let mut own = associated(scene, track);
     for (event, impact) in track.heard() {
         let strength = scene.events[event].strength;
         let near = scene.between(impact.time_s - NEAR_S, impact.time_s + NEAR_S);

@@ -12,7 +12,7 @@ const MOST_VERSIONS: usize = 100;
 #[derive(Debug)]
 struct Version {
     steps: Vec<Step>,
-    explained: Vec<usize>,
+    associated: Vec<usize>,
 }
 
 /// Follows a chain anew, and what comes of it again, until that was seen before.
@@ -36,9 +36,9 @@ fn within(most: usize, scene: &Scene<'_>, mut steps: Vec<Step>) -> Track {
         let Some(seed) = best_seed(&steps) else {
             return Track::new(&steps);
         };
-        let explained = reasons::explained(scene, &Track::new(&steps));
-        let next = follow(scene, &mut scene.rates_without(&explained), seed);
-        versions.push(Version { steps, explained });
+        let associated = reasons::associated(scene, &Track::new(&steps));
+        let next = follow(scene, &mut scene.rates_without(&associated), seed);
+        versions.push(Version { steps, associated });
         steps = next;
         if versions.len() == most {
             return Track::new(&best(scene, versions));
@@ -54,11 +54,11 @@ fn is_same(a: &[Step], b: &[Step]) -> bool {
 
 /// The version with the most evidence, under the clutter that none of them explains.
 fn best(scene: &Scene<'_>, versions: Vec<Version>) -> Vec<Step> {
-    let explained = versions.iter().flat_map(|v| v.explained.iter().copied());
-    let mut explained: Vec<usize> = explained.collect();
-    explained.sort_unstable();
-    explained.dedup();
-    let mut rates = scene.rates_without(&explained);
+    let associated = versions.iter().flat_map(|v| v.associated.iter().copied());
+    let mut associated: Vec<usize> = associated.collect();
+    associated.sort_unstable();
+    associated.dedup();
+    let mut rates = scene.rates_without(&associated);
     let among = |version: Version| judged(version.steps, &mut rates);
     let judged = versions.into_iter().map(among);
     let evidence = |steps: &Vec<Step>| steps.iter().map(|s| s.gain).sum::<f64>();
@@ -142,8 +142,8 @@ mod tests {
                     assert_eq!(usual, longer, "scene {seed}, at most {most}");
                 }
                 // A chain that does not come out again when it is followed anew is one of a cycle.
-                let explained = reasons::explained(&scene, &usual);
-                let mut rates = scene.rates_without(&explained);
+                let associated = reasons::associated(&scene, &usual);
+                let mut rates = scene.rates_without(&associated);
                 let again = best_seed(&steps).map(|s| Track::new(&follow(&scene, &mut rates, s)));
                 cycles += usize::from(again.is_some_and(|a| a.events != usual.events));
                 followed += 1;

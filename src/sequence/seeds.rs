@@ -7,7 +7,7 @@ use super::{Event, LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
 /// The strongest events within this many seconds …
 const NEIGHBOURHOOD_S: f64 = 0.6;
 /// … and this many of them may start a chain: a drop stands out somewhere along its way.
-const LEADERS: usize = 10;
+const INITIATORS: usize = 10;
 /// A chain starts with events of at least this strength, in nats: white noise offers two a second.
 const LEAST_STRENGTH: f64 = 9.0;
 /// Seeds kept for each second of the recording.
@@ -16,44 +16,44 @@ const SEEDS_PER_S: usize = 12;
 const RATIOS: (f64, f64) = (0.25, 1.0);
 
 /// A seed with what it promises, in nats.
-type Promise = (f64, [usize; 3]);
+type Scored = (f64, [usize; 3]);
 
 /// Triples of events that look like neighbouring impacts, most promising first: strong ones whose next or previous
 /// impact seems to be there.
 #[must_use]
 pub fn seeds(scene: &Scene<'_>) -> Vec<[usize; 3]> {
     let mut rates = scene.rates();
-    let leaders: Vec<Leader> = leaders(scene.events)
+    let initiators: Vec<Initiator> = initiators(scene.events)
         .into_iter()
-        .map(|event| Leader {
+        .map(|event| Initiator {
             event,
             time_s: scene.events[event].time_s,
             worth: -rates.ln_per_s(event),
         })
         .collect();
-    let mut found: Vec<Promise> = Vec::new();
-    let mut second: Vec<Promise> = Vec::new();
+    let mut found: Vec<Scored> = Vec::new();
+    let mut second: Vec<Scored> = Vec::new();
     let mut end_s = f64::NEG_INFINITY;
-    for (place, leader) in leaders.iter().enumerate() {
-        if leader.time_s > end_s {
+    for (place, initiator) in initiators.iter().enumerate() {
+        if initiator.time_s > end_s {
             keep_best(&mut second, &mut found);
-            end_s = leader.time_s + 1.0;
+            end_s = initiator.time_s + 1.0;
         }
-        triples_around(scene, &leaders, place, &mut second);
+        triples_around(scene, &initiators, place, &mut second);
     }
     keep_best(&mut second, &mut found);
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
     found.into_iter().map(|(_, seed)| seed).collect()
 }
 
-fn keep_best(second: &mut Vec<Promise>, found: &mut Vec<Promise>) {
+fn keep_best(second: &mut Vec<Scored>, found: &mut Vec<Scored>) {
     second.sort_by(|a, b| b.0.total_cmp(&a.0));
     found.extend(second.drain(..).take(SEEDS_PER_S));
 }
 
 /// An event that may start a chain.
 #[derive(Debug, Clone, Copy)]
-struct Leader {
+struct Initiator {
     event: usize,
     time_s: f64,
     /// Minus ln of the rate of its like: the rarer, the more.
@@ -61,10 +61,10 @@ struct Leader {
 }
 
 /// Strong events that few of their neighbours surpass.
-fn leaders(events: &[Event]) -> Vec<usize> {
+fn initiators(events: &[Event]) -> Vec<usize> {
     let mut first = 0;
     let mut last = 0;
-    let mut leaders = Vec::new();
+    let mut initiators = Vec::new();
     for (i, event) in events.iter().enumerate() {
         while events[first].time_s < event.time_s - NEIGHBOURHOOD_S {
             first += 1;
@@ -75,23 +75,28 @@ fn leaders(events: &[Event]) -> Vec<usize> {
         let stronger = events[first..last]
             .iter()
             .filter(|e| e.strength > event.strength)
-            .take(LEADERS)
+            .take(INITIATORS)
             .count();
-        if stronger < LEADERS && event.strength >= LEAST_STRENGTH {
-            leaders.push(i);
+        if stronger < INITIATORS && event.strength >= LEAST_STRENGTH {
+            initiators.push(i);
         }
     }
-    leaders
+    initiators
 }
 
-fn triples_around(scene: &Scene<'_>, leaders: &[Leader], place: usize, found: &mut Vec<Promise>) {
-    let second = leaders[place];
-    for first in leaders[..place].iter().rev() {
+fn triples_around(
+    scene: &Scene<'_>,
+    initiators: &[Initiator],
+    place: usize,
+    found: &mut Vec<Scored>,
+) {
+    let second = initiators[place];
+    for first in initiators[..place].iter().rev() {
         let flight = second.time_s - first.time_s;
         if flight > LONGEST_FLIGHT_S {
             break;
         }
-        for third in &leaders[place + 1..] {
+        for third in &initiators[place + 1..] {
             let next = third.time_s - second.time_s;
             if next > RATIOS.1 * flight {
                 break;
@@ -103,7 +108,7 @@ fn triples_around(scene: &Scene<'_>, leaders: &[Leader], place: usize, found: &m
             // Rare events and short flights say more: chance fills a long flight with anything.
             let worth: f64 = triple.iter().map(|l| l.worth).sum::<f64>() - flight.ln() - next.ln();
             found.push((
-                worth + neighbour(scene, leaders, triple),
+                worth + neighbour(scene, initiators, triple),
                 triple.map(|l| l.event),
             ));
         }
@@ -114,7 +119,7 @@ fn triples_around(scene: &Scene<'_>, leaders: &[Leader], place: usize, found: &m
 const NEIGHBOUR_REACH: f64 = 0.1;
 
 /// What the best match for the impact after or before the three is worth, in nats; 0 where there is none.
-fn neighbour(scene: &Scene<'_>, leaders: &[Leader], triple: [Leader; 3]) -> f64 {
+fn neighbour(scene: &Scene<'_>, initiators: &[Initiator], triple: [Initiator; 3]) -> f64 {
     let [t0, t1, t2] = triple.map(|l| l.time_s);
     let mut law = FlightLaw::prior();
     let jitter_s = scene.jitter_s(triple.map(|l| l.event));
@@ -129,8 +134,8 @@ fn neighbour(scene: &Scene<'_>, leaders: &[Leader], triple: [Leader; 3]) -> f64 
     let (next, previous) = (law.next_s(t2 - t1), law.previous_s(t1 - t0));
     let worth = |centre_s: f64, flight_s: f64| {
         let reach = NEIGHBOUR_REACH * flight_s;
-        let from = leaders.partition_point(|l| l.time_s < centre_s - reach);
-        let near = leaders[from..]
+        let from = initiators.partition_point(|l| l.time_s < centre_s - reach);
+        let near = initiators[from..]
             .iter()
             .take_while(|l| l.time_s <= centre_s + reach);
         near.map(|l| l.worth - (2.0 * reach).ln())

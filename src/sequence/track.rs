@@ -20,16 +20,16 @@ impl<'a> Scene<'a> {
         Self { events, clutter }
     }
 
-    /// The rates of clutter where none of the events is explained.
+    /// The rates of clutter where none of the events is associated.
     #[must_use]
     pub fn rates(&self) -> Rates<'_> {
         self.rates_without(&[])
     }
 
-    /// The rates of clutter where some events, indices in order, are explained and so no clutter.
+    /// The rates of clutter where some events, indices in order, are associated and so no clutter.
     #[must_use]
-    pub fn rates_without(&self, explained: &[usize]) -> Rates<'_> {
-        Rates::new(self.events, self.clutter, explained)
+    pub fn rates_without(&self, associated: &[usize]) -> Rates<'_> {
+        Rates::new(self.events, self.clutter, associated)
     }
 
     /// The length of the recording in seconds, at least one.
