@@ -1,11 +1,11 @@
-//! What each rung of the ladder costs: the fit of 60 impacts, and auto, which tries all. `cargo bench --bench fit`
+//! What each candidate model costs: the fit of 60 impacts, and auto, which tries all. `cargo bench --bench fit`
 #![expect(clippy::print_stdout, reason = "a benchmark prints")]
 #![allow(clippy::unwrap_used, reason = "a failing benchmark should panic")]
 
 use std::hint::black_box;
 use std::time::Instant;
 
-use bounce_audio::fit::ladder::{Choice, Inputs, climb};
+use bounce_audio::fit::model_selection::{Choice, Inputs, select};
 use bounce_audio::impact::Impact;
 use bounce_audio::random::SplitMix64;
 
@@ -31,7 +31,7 @@ fn median_us(choice: Choice) -> f64 {
         .map(|seed| {
             let impacts = drop(seed as u64);
             let start = Instant::now();
-            black_box(climb(black_box(&impacts), &Inputs::default(), choice));
+            black_box(select(black_box(&impacts), &Inputs::default(), choice));
             1e6 * start.elapsed().as_secs_f64()
         })
         .collect();

@@ -4,7 +4,7 @@
 //! cargo run --release --example coverage [drops a cell] > docs/coverage.md
 //! ```
 //!
-//! Each cell is fitted on the rung that made it and, for a tenth of the drops, by `auto`. The spread of ln e stands beside
+//! Each cell is fitted on the model that made it and, for a tenth of the drops, by `auto`. The spread of ln e stands beside
 //! the least that an unbiased estimate can have where the sizes of both noises are known (Cramér and Rao).
 #![allow(
     clippy::unwrap_used,
@@ -16,7 +16,7 @@ use std::sync::Mutex;
 use std::thread;
 
 use bounce_audio::fit::ModelKind;
-use bounce_audio::fit::ladder::{Choice, Climb, Inputs, climb};
+use bounce_audio::fit::model_selection::{Choice, Inputs, Selection, select};
 use bounce_audio::impact::Impact;
 use bounce_audio::physics::{
     FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution,
@@ -32,7 +32,7 @@ const SHORTEST_S: f64 = 4e-3;
 /// Models that differ by less than this many nats are not told apart.
 const ALIKE: f64 = 3.0;
 
-/// What makes the times of a cell, and the rung that it is fitted on.
+/// What makes the times of a cell, and the model that it is fitted on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Ball {
     Constant,
@@ -70,7 +70,7 @@ impl Ball {
         }
     }
 
-    fn rung(self) -> ModelKind {
+    fn kind(self) -> ModelKind {
         match self {
             Self::Constant => ModelKind::Constant,
             Self::Contact { .. } => ModelKind::Contact,
@@ -306,44 +306,44 @@ impl Tally {
                 continue;
             };
             tally.drops += 1;
-            if let Some(climb) = climb(&impacts, &inputs, cell.ball.choice()) {
-                tally.add(&climb, cell, ln_e);
+            if let Some(selection) = select(&impacts, &inputs, cell.ball.choice()) {
+                tally.add(&selection, cell, ln_e);
             }
             if i % 10 == 0 {
                 tally.auto_drops += 1;
-                if let Some(auto) = climb(&impacts, &inputs, Choice::Auto) {
+                if let Some(auto) = select(&impacts, &inputs, Choice::Auto) {
                     tally.auto_held += usize::from(holds(&auto, ln_e));
-                    tally.auto_right += usize::from(is_right(&auto, cell.ball.rung()));
+                    tally.auto_right += usize::from(is_right(&auto, cell.ball.kind()));
                 }
             }
         }
         tally
     }
 
-    fn add(&mut self, climb: &Climb, cell: &Cell, ln_e: f64) {
-        let fitted = climb.fit.ln_restitution;
-        self.held += usize::from(holds(climb, ln_e));
+    fn add(&mut self, selection: &Selection, cell: &Cell, ln_e: f64) {
+        let fitted = selection.fit.ln_restitution;
+        self.held += usize::from(holds(selection, ln_e));
         self.squares += (fitted.value - ln_e).powi(2);
         self.variances += fitted.std.unwrap_or(0.0).powi(2);
-        let ends = climb.fit.contact_s.and_then(|c| c.interval95);
+        let ends = selection.fit.contact_s.and_then(|c| c.interval95);
         if let (Some([low, high]), Some(contact_s)) = (ends, cell.ball.contact_s()) {
             self.contact_held += usize::from(low <= contact_s && contact_s <= high);
         }
     }
 }
 
-fn holds(climb: &Climb, ln_e: f64) -> bool {
-    let ends = climb.fit.ln_restitution.interval95;
+fn holds(selection: &Selection, ln_e: f64) -> bool {
+    let ends = selection.fit.ln_restitution.interval95;
     ends.is_some_and(|[low, high]| low <= ln_e && ln_e <= high)
 }
 
-/// Whether this rung was taken, or one that cannot be told from it.
-fn is_right(climb: &Climb, rung: ModelKind) -> bool {
+/// Whether this model was taken, or one that cannot be told from it.
+fn is_right(selection: &Selection, kind: ModelKind) -> bool {
     let gain = |kind: ModelKind| {
-        let found = climb.candidates.iter().find(|c| c.model == kind);
+        let found = selection.candidates.iter().find(|c| c.model == kind);
         found.map_or(f64::NEG_INFINITY, |c| c.gain_nats)
     };
-    climb.selected == rung || gain(climb.selected) - gain(rung) < ALIKE
+    selection.selected == kind || gain(selection.selected) - gain(kind) < ALIKE
 }
 
 fn cells() -> Vec<Cell> {
@@ -436,13 +436,13 @@ fn main() {
         1e3 * SHORTEST_S
     );
     println!(
-        "- ball: the rung that made the times and on which they are fitted; n: impacts; σ_t: error of each time, as stated;"
+        "- ball: the model that made the times and on which they are fitted; n: impacts; σ_t: error of each time, as stated;"
     );
     println!("  σ_e: scatter of each bounce.");
     println!(
         "- holds e, holds C, auto holds: how often the 95 % interval of e, of the contact time, and of e by `auto` hold the truth."
     );
-    println!("- auto right: how often `auto` takes this rung or one within {ALIKE} nats of it.");
+    println!("- auto right: how often `auto` takes this model or one within {ALIKE} nats of it.");
     println!(
         "- spread: root mean square error of ln e; over stated; over the least that is possible with known σ_t and σ_e.\n"
     );

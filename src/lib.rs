@@ -149,6 +149,6 @@ mod units;
 
 pub use analysis::{Listener, Settings, analyze, analyze_clearest};
 pub use error::Error;
-pub use fit::ladder::Choice as ModelChoice;
+pub use fit::model_selection::Choice as ModelChoice;
 pub use report::{Analysis, Drop, Report, Warning, WarningCode};
 pub use timing::Timing;

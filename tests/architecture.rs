@@ -159,7 +159,7 @@ const SURFACE: [&str; 12] = [
     "pub mod synth; // lab",
     "pub use analysis::{Listener, Settings, analyze, analyze_clearest};",
     "pub use error::Error;",
-    "pub use fit::ladder::Choice as ModelChoice;",
+    "pub use fit::model_selection::Choice as ModelChoice;",
     "pub use report::{Analysis, Drop, Report, Warning, WarningCode};",
     "pub use timing::Timing;",
 ];

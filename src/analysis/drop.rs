@@ -146,7 +146,7 @@ pub(super) fn by_height(
     height_m: f64,
     settings: &Settings,
 ) -> Result<ByHeight, Error> {
-    let input = total_time::Drop {
+    let input = total_time::TimedDrop {
         impacts: timed,
         flights,
         restitution: ratio,

@@ -2,8 +2,8 @@
 
 use super::Settings;
 use super::drop::Measured;
-use super::scene::{Heard, clearest};
-use super::warnings::{self, Heard as Sounds};
+use super::scene::{SceneResult, clearest};
+use super::warnings::{self, Sounds};
 use crate::Error;
 use crate::report::{Analysis, Rejected};
 
@@ -21,13 +21,13 @@ pub(super) struct Findings {
     /// Drops that there was no room for.
     left_out: usize,
     /// Drops that were cut in two.
-    torn: usize,
+    split: usize,
     rejected: Vec<(f64, Rejected)>,
     weak: usize,
     sounds: Sounds,
     clarities: Vec<f64>,
     /// Times of the impacts of the last scene.
-    told_s: Vec<f64>,
+    reported_s: Vec<f64>,
 }
 
 impl Findings {
@@ -39,24 +39,24 @@ impl Findings {
     }
 
     /// Impacts told already from a time on, ascending.
-    pub(super) fn told_after(&self, time_s: f64) -> &[f64] {
-        &self.told_s[self.told_s.partition_point(|&t| t < time_s)..]
+    pub(super) fn reported_after(&self, time_s: f64) -> &[f64] {
+        &self.reported_s[self.reported_s.partition_point(|&t| t < time_s)..]
     }
 
     /// Adds what was heard in the next scene.
-    pub(super) fn add(&mut self, heard: Heard) {
-        let impacts = heard.drops.iter().flat_map(|m| &m.impacts);
-        self.told_s = impacts.map(|i| i.time_s).collect();
-        self.told_s.sort_by(f64::total_cmp);
-        self.impacts += self.told_s.len();
-        self.drops.extend(heard.drops);
+    pub(super) fn add(&mut self, scene: SceneResult) {
+        let impacts = scene.drops.iter().flat_map(|m| &m.impacts);
+        self.reported_s = impacts.map(|i| i.time_s).collect();
+        self.reported_s.sort_by(f64::total_cmp);
+        self.impacts += self.reported_s.len();
+        self.drops.extend(scene.drops);
         self.keep_the_surest();
-        self.rejected.extend(heard.rejected);
-        self.weak += heard.weak;
+        self.rejected.extend(scene.rejected);
+        self.weak += scene.weak;
         self.keep_the_strongest();
-        self.torn += heard.torn;
-        self.sounds.add(heard.sound, &heard.strengths);
-        for (sum, clarity) in self.clarities.iter_mut().zip(heard.clarities) {
+        self.split += scene.split;
+        self.sounds.add(scene.sound, &scene.strengths);
+        for (sum, clarity) in self.clarities.iter_mut().zip(scene.clarities) {
             *sum += clarity;
         }
     }
@@ -95,7 +95,7 @@ impl Findings {
         if self.drops.is_empty() {
             warnings.push(self.sounds.warning());
         }
-        warnings.extend(warnings::of_memory(self.left_out, self.torn));
+        warnings.extend(warnings::of_memory(self.left_out, self.split));
         let drops = self.drops.into_iter().map(|m| m.until(end_s, settings));
         let analysis = Analysis {
             drops: drops.collect::<Result<_, Error>>()?,

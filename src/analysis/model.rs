@@ -3,8 +3,8 @@
 use super::Settings;
 use crate::Error;
 use crate::fit::Estimate;
-use crate::fit::ladder::{Climb, Inputs, climb};
 use crate::fit::model::{Budget, Parameter};
+use crate::fit::model_selection::{Inputs, Selection, select};
 use crate::impact::Impact;
 use crate::physics::priors::{CONTACT_RELATIVE_STD, Known};
 use crate::physics::{
@@ -60,31 +60,31 @@ pub(super) struct Modelled {
 /// Fits a drop.
 pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, Error> {
     let inputs = inputs(settings)?;
-    let Some(climb) = climb(timed, &inputs, settings.model) else {
+    let Some(selection) = select(timed, &inputs, settings.model) else {
         return Ok(Modelled::default());
     };
-    let fit = &climb.fit;
+    let fit = &selection.fit;
     let estimate = exponential(&fit.ln_restitution);
-    let told = estimate.std_error.is_some();
+    let has_error = estimate.std_error.is_some();
     Ok(Modelled {
         restitution: Some(Restitution {
             estimate,
             at_speed_m_per_s: Some(0.5 * settings.gravity_m_per_s2 * fit.mean_speed_s),
-            method: if told {
+            method: if has_error {
                 Method::LeastSquares
             } else {
                 Method::SingleRatio
             },
         }),
-        bounce_std: told.then_some(fit.bounce_std),
-        ball: ball(&climb, &inputs, settings),
-        ball_model: Some(climb.ball(settings.gravity_m_per_s2)?),
-        budget: told.then_some(fit.budget),
+        bounce_std: has_error.then_some(fit.bounce_std),
+        ball: ball(&selection, &inputs, settings),
+        ball_model: Some(selection.ball(settings.gravity_m_per_s2)?),
+        budget: has_error.then_some(fit.budget),
         contact: fit.contact_s,
         drag: fit.drag_per_s2,
-        by_speed: climb.selected.is_by_speed(),
-        warnings: warnings(&climb),
-        model: model(&climb, &inputs),
+        by_speed: selection.selected.is_by_speed(),
+        warnings: warnings(&selection),
+        model: model(&selection, &inputs),
     })
 }
 
@@ -97,14 +97,14 @@ fn exponential(ln: &Parameter) -> Estimate {
     }
 }
 
-fn model(climb: &Climb, inputs: &Inputs) -> Model {
-    let fit = &climb.fit;
+fn model(selection: &Selection, inputs: &Inputs) -> Model {
+    let fit = &selection.fit;
     let given = [
         inputs.contact_s.map(|_| Given::ContactTime),
         inputs.drag_per_s2.map(|_| Given::Drag),
     ];
     Model {
-        selected: climb.selected,
+        selected: selection.selected,
         given: given.into_iter().flatten().collect(),
         parameters: Parameters {
             contact_time_s: fit.contact_s.map(estimate),
@@ -112,8 +112,8 @@ fn model(climb: &Climb, inputs: &Inputs) -> Model {
             restitution: Some(fit.ln_restitution.value.exp()),
             speed_exponent: fit.exponent.map(estimate),
         },
-        candidates: climb.candidates.clone(),
-        alike: climb.alike,
+        candidates: selection.candidates.clone(),
+        alike: selection.alike,
     }
 }
 
@@ -126,18 +126,18 @@ const fn estimate(parameter: Parameter) -> Estimate {
 }
 
 /// The ball with this restitution and contact time, if the contact time is known well enough.
-fn ball(climb: &Climb, inputs: &Inputs, settings: &Settings) -> Option<Ball> {
-    let contact = climb.fit.contact_s?;
+fn ball(selection: &Selection, inputs: &Inputs, settings: &Settings) -> Option<Ball> {
+    let contact = selection.fit.contact_s?;
     let ([low, high], std_s) = (contact.interval95?, contact.std?);
     if low <= 0.0 || high >= UNDETERMINED * low {
         return None;
     }
     // What (14) to (17) invert is e of fast impacts.
-    let ln_fast = climb.fit.ln_restitution.value + climb.fit.ln_fast_gain;
+    let ln_fast = selection.fit.ln_restitution.value + selection.fit.ln_fast_gain;
     let restitution = Ratio::from_ln(ln_fast).ok()?;
     let oscillator = Oscillator::from_contact(restitution, contact.value).ok()?;
     let errors = ContactErrors {
-        restitution: restitution.value() * climb.fit.ln_restitution.std?,
+        restitution: restitution.value() * selection.fit.ln_restitution.std?,
         contact_time_s: std_s,
         correlation: 0.0,
     };
@@ -169,32 +169,32 @@ fn ball(climb: &Climb, inputs: &Inputs, settings: &Settings) -> Option<Ball> {
     })
 }
 
-fn warnings(climb: &Climb) -> Vec<Warning> {
+fn warnings(selection: &Selection) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    let strays = &climb.fit.strays;
+    let outliers = &selection.fit.outliers;
     let numbers = |of: &[usize]| {
         let numbers: Vec<String> = of.iter().map(|i| (i + 1).to_string()).collect();
         numbers.join(", ")
     };
-    if !strays.bounces.is_empty() {
+    if !outliers.bounces.is_empty() {
         let message = format!(
             "the rebound at impact {} is unlike the others and counts for little: spin, or a spot of the surface",
-            numbers(&strays.bounces)
+            numbers(&outliers.bounces)
         );
         warnings.push(Warning::new(WarningCode::WildBounce, message));
     }
-    if !strays.times.is_empty() {
+    if !outliers.times.is_empty() {
         let message = format!(
             "the time of impact {} fits none of its neighbours and counts for little",
-            numbers(&strays.times)
+            numbers(&outliers.times)
         );
         warnings.push(Warning::new(WarningCode::StrayTime, message));
     }
-    if let Some(other) = climb.alike {
+    if let Some(other) = selection.alike {
         let message = format!(
             "the model {other} explains the flights as well as {}: drag and an e that depends on speed cannot be told \
              apart without --mass and --diameter",
-            climb.selected
+            selection.selected
         );
         warnings.push(Warning::new(WarningCode::ModelsAlike, message));
     }

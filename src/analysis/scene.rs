@@ -25,7 +25,7 @@ pub(super) struct Bounds {
 
 /// What was heard in a scene.
 #[derive(Debug)]
-pub(super) struct Heard {
+pub(super) struct SceneResult {
     /// The drops, in order of time.
     pub drops: Vec<Measured>,
     /// Strong events outside the drops, with their strengths.
@@ -39,21 +39,21 @@ pub(super) struct Heard {
     /// Whether there was any sound.
     pub sound: bool,
     /// Drops that were cut in two.
-    pub torn: usize,
+    pub split: usize,
     /// What happened before this is settled; what happened later has to be heard again with what follows.
-    pub settled_s: f64,
+    pub final_until_s: f64,
 }
 
 /// Listens to the channel of a scene in which impacts stand out most.
 ///
-/// `told_s` are impacts in it that were told already, when its first part was heard.
+/// `reported_s` are impacts in it that were told already, when its first part was heard.
 pub(super) fn hear(
     channels: &[&[f32]],
     bounds: &Bounds,
-    told_s: &[f64],
+    reported_s: &[f64],
     detector: &Detector,
     settings: &Settings,
-) -> Result<Heard, Error> {
+) -> Result<SceneResult, Error> {
     let rate = detector.sample_rate_hz();
     let sound = |channel: usize| Sound {
         samples: channels[channel],
@@ -71,10 +71,10 @@ pub(super) fn hear(
     let events = heard.swap_remove(channel);
     let found = sequence::find(&events);
     let edge = Edge::of(&stretch, bounds.cut, &found);
-    let rejected = rejected_before(edge.settled_s, told_s, &events, &found);
-    let weak = weak_before(edge.settled_s, &events, &found);
+    let rejected = rejected_before(edge.final_until_s, reported_s, &events, &found);
+    let weak = weak_before(edge.final_until_s, &events, &found);
     let new = found.drops.into_iter();
-    let new = new.filter(|chain| !edge.waits(chain) && !is_told(chain, told_s));
+    let new = new.filter(|chain| !edge.is_deferred(chain) && !is_reported(chain, reported_s));
     let mut followed: Vec<Followed<'_>> = new.map(|chain| tail::follow(&stretch, chain)).collect();
     followed.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
     let mut kept: Vec<Followed<'_>> = Vec::new();
@@ -88,15 +88,15 @@ pub(super) fn hear(
         .into_iter()
         .map(|followed| drop::measure(&stretch, followed, channel, settings));
     let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
-    Ok(Heard {
+    Ok(SceneResult {
         drops,
         rejected,
         weak,
         strengths: events.iter().map(|e| e.strength).collect(),
         sound: channels.iter().any(|c| c.iter().any(|x| *x != 0.0)),
         clarities,
-        torn: edge.torn,
-        settled_s: edge.settled_s,
+        split: edge.split,
+        final_until_s: edge.final_until_s,
     })
 }
 
@@ -113,8 +113,8 @@ struct Edge {
     oldest_s: f64,
     /// Drops whose next impacts would be later than this may go on.
     end_s: f64,
-    settled_s: f64,
-    torn: usize,
+    final_until_s: f64,
+    split: usize,
 }
 
 /// A drop may go on if so many flights like its last do not fit before the cut: some impacts may be too faint …
@@ -132,22 +132,24 @@ impl Edge {
         let mut edge = Self {
             oldest_s: 0.5 * (stretch.sound.start_s + end_s),
             end_s,
-            settled_s: f64::INFINITY,
-            torn: 0,
+            final_until_s: f64::INFINITY,
+            split: 0,
         };
         if !cut {
             edge.end_s = f64::INFINITY;
             return edge;
         }
-        let (waiting, told): (Vec<&Chain>, Vec<&Chain>) =
-            found.drops.iter().partition(|chain| edge.waits(chain));
-        let first_s = waiting.iter().map(|chain| chain.span_s().0 - LEAD_S);
-        edge.settled_s = first_s.fold((end_s - AGAIN_S).max(edge.oldest_s), f64::min);
+        let (deferred, reported): (Vec<&Chain>, Vec<&Chain>) = found
+            .drops
+            .iter()
+            .partition(|chain| edge.is_deferred(chain));
+        let first_s = deferred.iter().map(|chain| chain.span_s().0 - LEAD_S);
+        edge.final_until_s = first_s.fold((end_s - AGAIN_S).max(edge.oldest_s), f64::min);
         // These last longer than what can be held: their later parts will be other drops.
-        let torn = told.iter().filter(|chain| edge.is_open(chain));
-        let torn_s: Vec<f64> = torn.map(|chain| chain.span_s().1).collect();
-        edge.torn = torn_s.len();
-        edge.settled_s = torn_s.into_iter().fold(edge.settled_s, f64::max);
+        let split = reported.iter().filter(|chain| edge.is_open(chain));
+        let split_s: Vec<f64> = split.map(|chain| chain.span_s().1).collect();
+        edge.split = split_s.len();
+        edge.final_until_s = split_s.into_iter().fold(edge.final_until_s, f64::max);
         edge
     }
 
@@ -159,7 +161,7 @@ impl Edge {
     }
 
     /// Whether a drop has to be heard again with what follows.
-    fn waits(&self, chain: &Chain) -> bool {
+    fn is_deferred(&self, chain: &Chain) -> bool {
         self.is_open(chain) && chain.span_s().0 - LEAD_S > self.oldest_s
     }
 }
@@ -167,25 +169,28 @@ impl Edge {
 /// An impact was told already if one was told within this time of it, in seconds.
 const SAME_S: f64 = 2e-3;
 
-fn is_known(time_s: f64, told_s: &[f64]) -> bool {
-    let at = told_s.partition_point(|&t| t < time_s - SAME_S);
-    told_s.get(at).is_some_and(|&t| t <= time_s + SAME_S)
+fn is_known(time_s: f64, reported_s: &[f64]) -> bool {
+    let at = reported_s.partition_point(|&t| t < time_s - SAME_S);
+    reported_s.get(at).is_some_and(|&t| t <= time_s + SAME_S)
 }
 
 /// Whether a chain is the later part of a drop that was told already.
-fn is_told(chain: &Chain, told_s: &[f64]) -> bool {
-    let known = chain.impacts.iter().filter(|i| is_known(i.time_s, told_s));
+fn is_reported(chain: &Chain, reported_s: &[f64]) -> bool {
+    let known = chain
+        .impacts
+        .iter()
+        .filter(|i| is_known(i.time_s, reported_s));
     2 * known.count() > chain.impacts.len()
 }
 
 fn rejected_before(
-    settled_s: f64,
-    told_s: &[f64],
+    final_until_s: f64,
+    reported_s: &[f64],
     events: &[Event],
     found: &Found,
 ) -> Vec<(f64, Rejected)> {
-    let settled = found.rejected.iter().filter(|r| r.time_s < settled_s);
-    let new = settled.filter(|r| !is_known(r.time_s, told_s));
+    let before = found.rejected.iter().filter(|r| r.time_s < final_until_s);
+    let new = before.filter(|r| !is_known(r.time_s, reported_s));
     new.map(|r| {
         let event = events.partition_point(|e| e.time_s < r.time_s);
         let strength = events.get(event).map_or(0.0, |e| e.strength);
@@ -195,15 +200,15 @@ fn rejected_before(
 }
 
 /// Events before a time that are neither an impact nor named.
-fn weak_before(settled_s: f64, events: &[Event], found: &Found) -> usize {
+fn weak_before(final_until_s: f64, events: &[Event], found: &Found) -> usize {
     let named = |chain: &Chain| {
         let heard = chain.impacts.iter().filter(|i| i.is_heard());
         let times = heard.map(|i| i.time_s);
         let rejected = chain.rejected.iter().map(|r| r.time_s);
-        times.chain(rejected).filter(|&t| t < settled_s).count()
+        times.chain(rejected).filter(|&t| t < final_until_s).count()
     };
-    let settled = events.partition_point(|e| e.time_s < settled_s);
-    let outside = found.rejected.iter().filter(|r| r.time_s < settled_s);
+    let before = events.partition_point(|e| e.time_s < final_until_s);
+    let outside = found.rejected.iter().filter(|r| r.time_s < final_until_s);
     let in_drops: usize = found.drops.iter().map(named).sum();
-    settled.saturating_sub(in_drops + outside.count())
+    before.saturating_sub(in_drops + outside.count())
 }

@@ -19,12 +19,12 @@ const NOTICEABLE: f64 = 30.0;
 
 /// What was heard in the whole recording, for when there is no drop in it.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Heard {
+pub(super) struct Sounds {
     sound: bool,
     noticeable: usize,
 }
 
-impl Heard {
+impl Sounds {
     /// Adds a scene, by whether there was any sound and the strengths of its events.
     pub(super) fn add(&mut self, sound: bool, strengths: &[f64]) {
         self.sound |= sound;
@@ -61,7 +61,7 @@ impl Heard {
 }
 
 /// What the limit of memory cost.
-pub(super) fn of_memory(left_out: usize, torn: usize) -> Vec<Warning> {
+pub(super) fn of_memory(left_out: usize, split: usize) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if left_out > 0 {
         let message = format!(
@@ -70,9 +70,9 @@ pub(super) fn of_memory(left_out: usize, torn: usize) -> Vec<Warning> {
         );
         warnings.push(Warning::new(WarningCode::LeftOut, message));
     }
-    if torn > 0 {
+    if split > 0 {
         let message = format!(
-            "{torn} drops last longer than what is held in memory, and stand here in two parts"
+            "{split} drops last longer than what is held in memory, and stand here in two parts"
         );
         warnings.push(Warning::new(WarningCode::Torn, message));
     }

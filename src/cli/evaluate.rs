@@ -17,7 +17,7 @@ use crate::evaluate::rows::{Evaluation, Row, Tier};
 use crate::evaluate::scores::{FileScore, score};
 use crate::evaluate::text::to_text;
 use crate::evaluate::thresholds::Thresholds;
-use crate::fit::ladder::Choice;
+use crate::fit::model_selection::Choice;
 use crate::timing::Timing;
 use crate::units::real;
 
@@ -51,8 +51,8 @@ enum Format {
     Json,
 }
 
-/// Every way of timing, from fastest to most exact, with the model that the recording supports; then every rung of the
-/// ladder with the most exact times.
+/// Every way of timing, from fastest to most exact, with the model that the recording supports; then every model of the
+/// intervals with the most exact times.
 const WAYS: [Way; 7] = [
     ("envelope", Timing::Envelope, "auto", Choice::Auto),
     ("fraction", Timing::Fraction, "auto", Choice::Auto),

@@ -9,7 +9,7 @@ use super::{acceleration, length, mass, time};
 use crate::Error;
 use crate::analysis::Settings;
 use crate::audio::Stream;
-use crate::fit::ladder::Choice;
+use crate::fit::model_selection::Choice;
 use crate::recording::{Channel, Request};
 use crate::report::Report;
 use crate::timing::Timing;

@@ -1,15 +1,15 @@
 //! Where something struck: [events](crate::event) from samples and a rate. Knows nothing of balls.
 //!
-//! [`quiet`] watches over everything for the little in which something happens. A [filter bank](crate::signal::filterbank) splits that
-//! into octaves, [`rise`] measures how surely the energy went up at each moment, [`peaks`] picks the moments.
+//! [`activity_gate`] searches everything for the little in which something happens. A [filter bank](crate::signal::filterbank) splits that
+//! into octaves, [`change_point`] measures how surely the energy went up at each moment, [`peaks`] picks the moments.
 
+pub mod activity_gate;
+pub mod change_point;
 pub mod matched;
 pub mod peaks;
 mod pursuit;
-pub mod quiet;
-pub mod rise;
-mod rounding;
-mod windows;
+mod quantization;
+mod running_mean;
 
 use crate::Error;
 use crate::event::Event;
@@ -95,7 +95,7 @@ impl Detector {
         inside: std::ops::Range<usize>,
         found: &mut Vec<Event>,
     ) {
-        let evidence = rise::Evidence::of(&self.bank, segment.samples);
+        let evidence = change_point::Evidence::of(&self.bank, segment.samples);
         let separation = SEPARATION_S / self.bank.hop_s();
         let peaks = peaks::pick(&evidence.total, separation, WEAKEST);
         let peaks = peaks.iter().filter(|p| inside.contains(&p.index));

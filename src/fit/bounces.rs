@@ -1,6 +1,6 @@
 //! What each bounce says of ln e, made linear in the times and in the parameters of the model.
 
-use super::slowing::{self, Flight, Lost, Slowing};
+use super::restitution_law::{self, Flight, Loss, TrialLaw};
 use crate::impact::Impact;
 use crate::physics::priors::Known;
 
@@ -23,12 +23,12 @@ pub struct Terms {
     /// p.
     pub speed: Option<Known>,
     /// How slow impacts differ from fast ones.
-    pub law: Law,
+    pub law: ImpactLaw,
 }
 
 /// How slow impacts differ from fast ones, by what C and e themselves say.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Law {
+pub enum ImpactLaw {
     /// Not at all.
     #[default]
     Alike,
@@ -48,7 +48,7 @@ pub(super) struct Values {
 }
 
 /// Most parameters a model has: θ, C, K and p.
-pub(super) const MOST: usize = 4;
+pub(super) const MOST_PARAMETERS: usize = 4;
 
 /// The bounces around a trial of times and parameters.
 #[derive(Debug, Clone)]
@@ -60,11 +60,11 @@ pub(super) struct Bounces {
     /// How many parameters are fitted.
     pub parameters: usize,
     /// How ln e of each bounce depends on each fitted parameter; 1 for θ first, 0 past the last.
-    pub design: Vec<[f64; MOST]>,
+    pub design: Vec<[f64; MOST_PARAMETERS]>,
     /// ln of the derivative of ln e by the flight after each bounce …
     pub ln_stretch: Vec<f64>,
     /// … and how that depends on each fitted parameter.
-    pub stretching: Vec<[f64; MOST]>,
+    pub stretching: Vec<[f64; MOST_PARAMETERS]>,
     /// `ln(e/e₀)` by the weight at the mean speed: θ is ln e there, and e₀ that of fast impacts.
     pub middle_loss: f64,
     /// Mean ln of the speed of arrival, as a flight without air of so many seconds has it: `ln(2v/g)`.
@@ -79,12 +79,12 @@ impl Bounces {
         terms: &Terms,
         values: Values,
     ) -> Option<Self> {
-        let slowing = Slowing::of(trial_s, terms, values)?;
-        let flights = slowing::flights(trial_s, values, &slowing)?;
+        let law = TrialLaw::of(trial_s, terms, values)?;
+        let flights = restitution_law::flights(trial_s, values, &law)?;
         let arriving = &flights[..flights.len() - 1];
         let speeds: Vec<f64> = arriving.iter().map(|f| f.ends.ln_landing).collect();
-        let mean_ln_speed = slowing::mean(speeds.iter().copied());
-        let (lost, middle_loss) = slowing.losses(values, &speeds, mean_ln_speed);
+        let mean_ln_speed = restitution_law::mean(speeds.iter().copied());
+        let (lost, middle_loss) = law.losses(values, &speeds, mean_ln_speed);
         let ln_restitution = values.ln_fast_restitution + middle_loss;
         let off_s: Vec<f64> = observed
             .iter()
@@ -147,9 +147,9 @@ impl Terms {
         &self,
         before: &Flight,
         after: &Flight,
-        lost: &Lost,
+        lost: &Loss,
         slower: f64,
-    ) -> ([f64; MOST], [f64; MOST]) {
+    ) -> ([f64; MOST_PARAMETERS], [f64; MOST_PARAMETERS]) {
         let (shorter_before, shorter_after) = (before.shorter, after.shorter);
         let (before, after) = (&before.ends, &after.ends);
         // A longer contact means shorter flights: D stays, T = D − C.
@@ -169,7 +169,7 @@ impl Terms {
             self.drag.map(|_| drag),
             self.speed.map(|_| (slower, 0.0)),
         ];
-        let (mut design, mut stretching) = ([0.0; MOST], [0.0; MOST]);
+        let (mut design, mut stretching) = ([0.0; MOST_PARAMETERS], [0.0; MOST_PARAMETERS]);
         for (i, term) in fitted.into_iter().flatten().enumerate() {
             (design[i], stretching[i]) = term;
         }

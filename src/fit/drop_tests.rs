@@ -1,9 +1,9 @@
 //! The fit on drops whose e, contact, drag and noises are known.
 
-use super::bounces::{Law, Terms};
+use super::bounces::{ImpactLaw, Terms};
 use super::kind::ModelKind;
-use super::ladder::{Choice, Inputs, climb};
 use super::model::fit;
+use super::model_selection::{Choice, Inputs, select};
 use crate::impact::Impact;
 use crate::physics::priors::Known;
 use crate::physics::{
@@ -118,7 +118,7 @@ fn contact_and_drag_that_are_fitted_keep_the_interval_true() {
             std: 2.0,
         }),
         speed: None,
-        law: Law::Alike,
+        law: ImpactLaw::Alike,
     };
     let share = made.coverage(&terms, DROPS);
     assert!(COVERAGE.contains(&share), "{share}");
@@ -138,25 +138,25 @@ fn the_air_that_slows_a_heavy_ball_unseen_is_in_the_interval() {
     let mut rng = SplitMix64::new(16);
     let (mut held, mut told) = (0, 0);
     for _ in 0..100 {
-        let climb = climb(&made.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
-        let [low, high] = climb.fit.ln_restitution.interval95.unwrap();
+        let selection = select(&made.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
+        let [low, high] = selection.fit.ln_restitution.interval95.unwrap();
         held += usize::from((low..high).contains(&made.e.ln()));
-        told += usize::from(climb.fit.drag_per_s2.is_some());
+        told += usize::from(selection.fit.drag_per_s2.is_some());
     }
     assert!(held >= 90 && told <= 10, "{held} held, {told} with a drag");
 }
 
 #[test]
-fn the_ladder_is_climbed_as_far_as_the_drop_supports() {
+fn models_are_selected_as_far_as_the_drop_supports() {
     let mut rng = SplitMix64::new(5);
-    let plain = climb(&STEEL.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
+    let plain = select(&STEEL.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
     assert_eq!(plain.selected, ModelKind::Constant);
     let soft = Made {
         contact_s: 5e-3,
         bounce_std: 0.002,
         ..STEEL
     };
-    let soft = climb(&soft.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
+    let soft = select(&soft.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
     assert_eq!(soft.selected, ModelKind::Contact);
     assert!((soft.fit.contact_s.unwrap().value - 5e-3).abs() < 1e-3);
     let light = Made {
@@ -166,14 +166,14 @@ fn the_ladder_is_climbed_as_far_as_the_drop_supports() {
         bounce_std: 0.002,
         ..STEEL
     };
-    let light = climb(&light.impacts(&mut rng), &Inputs::default(), Choice::Drag).unwrap();
+    let light = select(&light.impacts(&mut rng), &Inputs::default(), Choice::Drag).unwrap();
     let drag = light.fit.drag_per_s2.unwrap();
     assert!((drag.value - (9.81_f64 / 8.3).powi(2)).abs() < 4.0 * drag.std.unwrap());
     assert!((light.fit.ln_restitution.value.exp() - 0.93).abs() < 2e-3);
 }
 
 #[test]
-fn a_drag_that_is_known_is_in_every_model_and_no_rung() {
+fn a_drag_that_is_known_is_in_every_model_and_no_candidate_of_its_own() {
     let mut rng = SplitMix64::new(6);
     let light = Made {
         terminal_speed: Some(8.3),
@@ -186,20 +186,20 @@ fn a_drag_that_is_known_is_in_every_model_and_no_rung() {
             std: 0.1,
         }),
     };
-    let climb = climb(&light.impacts(&mut rng), &inputs, Choice::Auto).unwrap();
-    assert!(climb.fit.drag_per_s2.is_some());
-    assert!(climb.candidates.iter().all(|c| !c.model.has_drag()));
+    let selection = select(&light.impacts(&mut rng), &inputs, Choice::Auto).unwrap();
+    assert!(selection.fit.drag_per_s2.is_some());
+    assert!(selection.candidates.iter().all(|c| !c.model.has_drag()));
 }
 
 #[test]
-fn strays_do_not_own_the_answer() {
+fn outliers_do_not_own_the_answer() {
     let mut rng = SplitMix64::new(8);
     let clean = STEEL.impacts(&mut rng);
     let expected = fit(&clean, &Terms::default()).unwrap().ln_restitution;
     let mut late = clean.clone();
     late[28].time_s += 4e-3;
     let fitted = fit(&late, &Terms::default()).unwrap();
-    assert_eq!(fitted.strays.times, [28]);
+    assert_eq!(fitted.outliers.times, [28]);
     let off = (fitted.ln_restitution.value - expected.value).abs();
     assert!(off < expected.std.unwrap(), "{off}");
     let mut several = clean;
@@ -263,18 +263,18 @@ fn linear_drop(e: f64, contact_s: f64, impacts: usize, rng: &mut SplitMix64) -> 
 }
 
 #[test]
-fn a_linear_balls_contact_and_e_come_back_on_its_own_rung() {
+fn a_linear_balls_contact_and_e_come_back_with_its_own_model() {
     const DROPS: usize = 60;
     for (e, contact_s, impacts) in [(0.9_f64, 1e-3, 36), (0.8, 5e-3, 12)] {
         let mut rng = SplitMix64::new(12);
         let (mut contacts, mut fasts) = (0, 0);
         for _ in 0..DROPS {
             let made = linear_drop(e, contact_s, impacts, &mut rng);
-            let climb = climb(&made, &Inputs::default(), Choice::Linear).unwrap();
-            let [low, high] = climb.fit.contact_s.unwrap().interval95.unwrap();
+            let selection = select(&made, &Inputs::default(), Choice::Linear).unwrap();
+            let [low, high] = selection.fit.contact_s.unwrap().interval95.unwrap();
             contacts += usize::from(low <= contact_s && contact_s <= high);
-            let fast = climb.fit.ln_restitution.value + climb.fit.ln_fast_gain;
-            let std = climb.fit.ln_restitution.std.unwrap();
+            let fast = selection.fit.ln_restitution.value + selection.fit.ln_fast_gain;
+            let std = selection.fit.ln_restitution.std.unwrap();
             fasts += usize::from((fast - e.ln()).abs() < 3.0 * std);
         }
         assert!(
@@ -304,11 +304,14 @@ fn viscoelastic_spheres_are_told_from_a_power_of_the_speed_and_e_is_that_at_the_
             speed *= law.at(speed).unwrap().value() * (0.006 * rng.normal()).exp();
             at_s += 2.0 * speed / 9.81;
         }
-        let climb = climb(&impacts, &Inputs::default(), Choice::Auto).unwrap();
-        let truth = law.at(0.5 * 9.81 * climb.fit.mean_speed_s).unwrap().ln();
-        let [low, high] = climb.fit.ln_restitution.interval95.unwrap();
+        let selection = select(&impacts, &Inputs::default(), Choice::Auto).unwrap();
+        let truth = law
+            .at(0.5 * 9.81 * selection.fit.mean_speed_s)
+            .unwrap()
+            .ln();
+        let [low, high] = selection.fit.ln_restitution.interval95.unwrap();
         held += usize::from((low..high).contains(&truth));
-        taken += usize::from(climb.selected == ModelKind::Viscoelastic);
+        taken += usize::from(selection.selected == ModelKind::Viscoelastic);
     }
     // A power of the speed that fits as well is 0.0015 off: two standard errors.
     assert!(
@@ -332,11 +335,11 @@ fn e_of_a_linear_ball_is_that_at_the_mean_speed_and_not_the_mean_over_its_impact
     let (mut off, mut apart, mut stds) = (0.0, 0.0, 0.0);
     for _ in 0..40 {
         let made = linear_drop(e, contact_s, impacts, &mut rng);
-        let climb = climb(&made, &Inputs::default(), Choice::Linear).unwrap();
-        let at_mean = ln_at(0.5 * 9.81 * climb.fit.mean_speed_s);
-        off += climb.fit.ln_restitution.value - at_mean;
+        let selection = select(&made, &Inputs::default(), Choice::Linear).unwrap();
+        let at_mean = ln_at(0.5 * 9.81 * selection.fit.mean_speed_s);
+        off += selection.fit.ln_restitution.value - at_mean;
         apart += mean_ln - at_mean;
-        stds += climb.fit.ln_restitution.std.unwrap();
+        stds += selection.fit.ln_restitution.std.unwrap();
     }
     // A mean of 40 is off by a sixth of one standard error; what all impacts lose on average lies far beyond.
     assert!(off.abs() < 0.5 * stds, "{off} against {stds}");
@@ -373,8 +376,8 @@ fn a_light_ball_is_not_taken_for_a_duller_one_where_mass_and_diameter_are_given(
         let mean = 0.93 - (flight(30) / flight(0)).powf(1.0 / 30.0);
         assert!((first - first_off).abs() < 0.15 * first_off, "{first}");
         assert!((mean - mean_off).abs() < 0.15 * mean_off, "{mean}");
-        let climb = climb(&impacts, &inputs, Choice::Drag).unwrap();
-        let e = climb.fit.ln_restitution.value.exp();
+        let selection = select(&impacts, &inputs, Choice::Drag).unwrap();
+        let e = selection.fit.ln_restitution.value.exp();
         assert!((e - 0.93).abs() < 1e-4, "from {height_m} m: {e}");
     }
 }

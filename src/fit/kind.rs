@@ -1,6 +1,6 @@
 //! The kinds of models that are compared, and the ball that each makes of its parameters.
 
-use super::bounces::Law;
+use super::bounces::ImpactLaw;
 use crate::Error;
 use crate::physics::{BallModel, Bounce, FlightLaw, LinearContact, Restitution, RestitutionLaw};
 use crate::words::words;
@@ -81,11 +81,11 @@ impl ModelKind {
     }
 
     /// How slow impacts differ from fast ones by what contact and e themselves say.
-    pub(super) const fn law(self) -> Law {
+    pub(super) const fn law(self) -> ImpactLaw {
         match self {
-            Self::Linear | Self::LinearDrag => Law::Linear,
-            Self::Viscoelastic => Law::Viscoelastic,
-            _ => Law::Alike,
+            Self::Linear | Self::LinearDrag => ImpactLaw::Linear,
+            Self::Viscoelastic => ImpactLaw::Viscoelastic,
+            _ => ImpactLaw::Alike,
         }
     }
 
@@ -144,7 +144,7 @@ impl ModelKind {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::ladder::{Choice, Inputs, climb};
+    use crate::fit::model_selection::{Choice, Inputs, select};
     use crate::impact::Impact;
 
     const BALL: BallParameters = BallParameters {
@@ -195,9 +195,9 @@ mod tests {
             (ModelKind::Viscoelastic, Choice::Viscoelastic, BALL),
         ] {
             let made = kind.ball(&parameters).unwrap();
-            let climb = climb(&impacts(&made), &Inputs::default(), choice).unwrap();
-            assert_eq!(climb.selected, kind);
-            let fitted = climb.ball(9.81).unwrap();
+            let selection = select(&impacts(&made), &Inputs::default(), choice).unwrap();
+            assert_eq!(selection.selected, kind);
+            let fitted = selection.ball(9.81).unwrap();
             for speed in [0.3, 1.0, 2.5] {
                 let [made_e, fitted_e] =
                     [&made, &fitted].map(|b| b.restitution(speed).unwrap().value());

@@ -2,7 +2,7 @@
 
 use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
-use super::bounces::{Bounces, MOST};
+use super::bounces::{Bounces, MOST_PARAMETERS};
 use super::noise::{Noise, Sizes};
 use crate::linalg::{Cholesky, dot};
 use crate::units::real;
@@ -53,11 +53,11 @@ pub(super) struct Solution {
     /// ln of the restricted likelihood: θ and what else is fitted are integrated out.
     pub ln_likelihood: f64,
     /// Parameters, θ first; 0 past the last.
-    pub values: [f64; MOST],
+    pub values: [f64; MOST_PARAMETERS],
     /// Their covariance.
-    pub covariance: [[f64; MOST]; MOST],
+    pub covariance: [[f64; MOST_PARAMETERS]; MOST_PARAMETERS],
     /// Mean and variance of the normal distribution of each, of which what is less than it can be is to be cut off.
-    pub before_least: [(f64, f64); MOST],
+    pub before_least: [(f64, f64); MOST_PARAMETERS],
 }
 
 impl Solution {
@@ -73,9 +73,9 @@ impl Solution {
         if variance <= 0.0 {
             return;
         }
-        for j in 0..MOST {
+        for j in 0..MOST_PARAMETERS {
             self.values[j] += column[j] / variance * off;
-            for k in 0..MOST {
+            for k in 0..MOST_PARAMETERS {
                 self.covariance[j][k] -= column[j] * column[k] / variance;
             }
         }
@@ -105,9 +105,9 @@ impl Solution {
                 alpha
             };
             let (column, shrink) = (self.covariance[i], lambda * (lambda - alpha) / variance);
-            for j in 0..MOST {
+            for j in 0..MOST_PARAMETERS {
                 self.values[j] += lambda * column[j] / std;
-                for k in 0..MOST {
+                for k in 0..MOST_PARAMETERS {
                     self.covariance[j][k] -= shrink * column[j] * column[k];
                 }
             }
@@ -152,7 +152,7 @@ pub(super) fn solve(
 }
 
 /// The columns of the design and, last, the observations.
-const COLUMNS: usize = MOST + 1;
+const COLUMNS: usize = MOST_PARAMETERS + 1;
 
 /// [`solve`] with so many columns: known beforehand, they stay in the machine's registers.
 fn solve_columns<const N: usize>(
@@ -171,7 +171,10 @@ fn solve_columns<const N: usize>(
     }));
     let products = products(&white, factors.precisions());
     let density = Density::of(bounces, noise, sizes);
-    let (mut normal, mut right) = ([[0.0; MOST]; MOST], [0.0; MOST]);
+    let (mut normal, mut right) = (
+        [[0.0; MOST_PARAMETERS]; MOST_PARAMETERS],
+        [0.0; MOST_PARAMETERS],
+    );
     for (i, prior) in priors.iter().enumerate().take(count) {
         normal[i][..count].copy_from_slice(&products[i][..count]);
         normal[i][i] += prior.precision;
@@ -179,7 +182,7 @@ fn solve_columns<const N: usize>(
     }
     let inverse = Cholesky::of(&normal, count)?;
     let (covariance, ln_determinant) = (inverse.inverse(), inverse.ln_determinant());
-    let values: [f64; MOST] = std::array::from_fn(|i| dot(&covariance[i], &right));
+    let values: [f64; MOST_PARAMETERS] = std::array::from_fn(|i| dot(&covariance[i], &right));
     let mut misfit: f64 = 0.0;
     for (row, precision) in white.iter().zip(factors.precisions()) {
         let explained: f64 = row[..count].iter().zip(&values).map(|(w, b)| w * b).sum();
@@ -202,7 +205,7 @@ fn solve_columns<const N: usize>(
             + allowed,
         values,
         covariance,
-        before_least: [(0.0, 0.0); MOST],
+        before_least: [(0.0, 0.0); MOST_PARAMETERS],
     })
 }
 
@@ -225,14 +228,14 @@ fn products<const N: usize>(
 /// `Σ ln ∂z_j/∂D_j` at the trial, and its slope by each parameter times `ρ_j`.
 struct Density {
     ln: f64,
-    pull: [f64; MOST],
+    pull: [f64; MOST_PARAMETERS],
 }
 
 impl Density {
     fn of(bounces: &Bounces, noise: &Noise, sizes: Sizes) -> Self {
         let mut density = Self {
             ln: 0.0,
-            pull: [0.0; MOST],
+            pull: [0.0; MOST_PARAMETERS],
         };
         let stretches = bounces.ln_stretch.iter().zip(&bounces.stretching);
         for (own, (ln, stretching)) in noise.own_shares(sizes).zip(stretches) {

@@ -5,17 +5,17 @@
 
 mod banded;
 pub mod bounces;
-pub mod ensemble;
 pub mod flights;
 pub mod kind;
-pub mod ladder;
 mod least_squares;
 pub mod model;
+pub mod model_selection;
 mod noise;
+pub mod outlier;
 mod posterior;
-mod slowing;
+pub mod random_effects;
+mod restitution_law;
 mod state;
-pub mod stray;
 pub mod total_time;
 
 pub use kind::{BallParameters, ModelKind};

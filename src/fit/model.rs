@@ -5,9 +5,9 @@ use statrs::distribution::{ContinuousCDF, Normal};
 use super::bounces::{Bounces, Terms};
 use super::least_squares::Prior;
 use super::noise::Noise;
+use super::outlier::{self, Outliers};
 use super::posterior::Posterior;
 use super::state::State;
-use super::stray::{self, Strays};
 use crate::impact::Impact;
 use crate::physics::priors::Known;
 use crate::statistics::{NORMAL95, bisected};
@@ -40,7 +40,7 @@ pub struct Fit {
     /// Where the variance of ln e comes from.
     pub budget: Budget,
     /// Bounces and times that stray.
-    pub strays: Strays,
+    pub outliers: Outliers,
 }
 
 /// A number with its uncertainty.
@@ -149,7 +149,7 @@ pub(super) struct Fitted<'a> {
     noise: Noise,
     priors: Vec<Prior>,
     posterior: Posterior,
-    strays: Strays,
+    outliers: Outliers,
 }
 
 impl<'a> Fitted<'a> {
@@ -158,8 +158,8 @@ impl<'a> Fitted<'a> {
             return None;
         }
         let mut state = State::new(impacts, terms);
-        state.settle()?;
-        let strays = stray::find(&mut state)?;
+        state.converge()?;
+        let outliers = outlier::find(&mut state)?;
         let bounces = state.bounces()?;
         let noise = state.noise(&bounces);
         let priors = state.priors();
@@ -169,7 +169,7 @@ impl<'a> Fitted<'a> {
             bounces,
             noise,
             priors,
-            strays,
+            outliers,
         })
     }
 
@@ -214,7 +214,7 @@ impl<'a> Fitted<'a> {
             mean_speed_s: self.bounces.mean_ln_speed.exp(),
             ln_evidence: self.ln_evidence(),
             budget: budget(&self.bounces, &self.noise, &self.priors, &self.posterior),
-            strays: self.strays,
+            outliers: self.outliers,
         }
     }
 

@@ -16,7 +16,7 @@ pub(super) struct Noise {
     /// `A·diag(s²)·Aᵀ`.
     timing: Banded,
     /// w.
-    pub wildness: Vec<f64>,
+    pub variance_inflation: Vec<f64>,
 }
 
 /// Sizes of the noises.
@@ -30,7 +30,11 @@ pub(super) struct Sizes {
 
 impl Noise {
     /// From the squares of the times' standard errors, one more at each end than there are bounces.
-    pub(super) fn new(bounces: &Bounces, time_variances: &[f64], wildness: Vec<f64>) -> Self {
+    pub(super) fn new(
+        bounces: &Bounces,
+        time_variances: &[f64],
+        variance_inflation: Vec<f64>,
+    ) -> Self {
         let slopes = &bounces.slopes;
         let shared = |i: usize, step: usize| -> f64 {
             (step..3)
@@ -43,7 +47,7 @@ impl Noise {
             timing: Banded {
                 rows: rows.collect(),
             },
-            wildness,
+            variance_inflation,
         }
     }
 
@@ -55,14 +59,14 @@ impl Noise {
     /// The share of the variance of each bounce that is its own and not that of the times.
     pub(super) fn own_shares(&self, sizes: Sizes) -> impl Iterator<Item = f64> + '_ {
         let (own, scale) = (sizes.bounce.powi(2), sizes.timing.powi(2));
-        let pairs = self.timing_variances().zip(&self.wildness);
+        let pairs = self.timing_variances().zip(&self.variance_inflation);
         pairs.map(move |(t, w)| own * w / (own * w + scale * t))
     }
 
     /// The factors of Σ; none where it is singular in the precision at hand.
     pub(super) fn factors(&self, sizes: Sizes) -> Option<Factors> {
         let (own, scale) = (sizes.bounce.powi(2), sizes.timing.powi(2));
-        let rows = self.timing.rows.iter().zip(&self.wildness);
+        let rows = self.timing.rows.iter().zip(&self.variance_inflation);
         Factors::of(rows.map(|([main, first, second], w)| {
             [scale * main + own * w, scale * first, scale * second]
         }))
@@ -77,7 +81,7 @@ impl Noise {
         const STEP: f64 = 0.2;
         let scale = sizes.timing.powi(2);
         let own = [-STEP, 0.0, STEP].map(|step: f64| sizes.bounce.powi(2) * step.exp());
-        let rows = self.timing.rows.iter().zip(&self.wildness);
+        let rows = self.timing.rows.iter().zip(&self.variance_inflation);
         let [less, same, more] = ln_determinants(rows.map(|([main, first, second], w)| {
             let main = own.map(|own| scale * main + own * w);
             (main, [scale * first, scale * second])
@@ -99,7 +103,10 @@ impl Noise {
             weights[i] * (row[0] * weights[i] + beside.sum::<f64>())
         };
         let timing = self.timing.rows.iter().enumerate().map(row).sum();
-        let own = weights.iter().zip(&self.wildness).map(|(a, w)| a * a * w);
+        let own = weights
+            .iter()
+            .zip(&self.variance_inflation)
+            .map(|(a, w)| a * a * w);
         (timing, own.sum())
     }
 }

@@ -3,12 +3,12 @@
 
 use serde::Deserialize;
 
-use super::bounces::{Bounces, Law, MOST, Terms, Values};
+use super::bounces::{Bounces, ImpactLaw, MOST_PARAMETERS, Terms, Values};
 use super::least_squares::{Prior, Solution, solve};
 use super::model::fit;
 use super::noise::{Noise, Sizes};
+use super::outlier::Outliers;
 use super::posterior::Posterior;
-use super::stray::Strays;
 use crate::impact::Impact;
 use crate::physics::priors::Known;
 
@@ -74,7 +74,7 @@ impl Row {
             contact: self.contact_s.map(known),
             drag: self.drag_per_s2.map(known),
             speed: self.exponent.map(known),
-            law: Law::Alike,
+            law: ImpactLaw::Alike,
         }
     }
 
@@ -155,7 +155,7 @@ const ROUNDING: f64 = 1e-9;
 fn given_the_noises_the_solution_is_that_of_dense_matrices() {
     for (number, row) in Row::all().iter().enumerate() {
         let (mut bounces, noise, priors) = row.linear();
-        bounces.stretching.fill([0.0; MOST]);
+        bounces.stretching.fill([0.0; MOST_PARAMETERS]);
         for at in &row.at_sizes {
             let solution = solve(&bounces, &noise, at.sizes(), &priors).unwrap();
             let (values, std) = answer(row, &solution);
@@ -269,7 +269,7 @@ const SETTLING: f64 = 2e-3;
 fn the_whole_fit_is_that_of_the_oracle() {
     for (number, row) in Row::all().iter().enumerate() {
         let fit = fit(&row.impacts(), &row.terms()).unwrap();
-        assert_eq!(fit.strays, Strays::default(), "drop {number}");
+        assert_eq!(fit.outliers, Outliers::default(), "drop {number}");
         let found = fit.ln_restitution;
         let [low, high] = found.interval95.unwrap();
         let slopes = row.drag_per_s2.map_or(0.0, |_| SLOPES_WITH_DRAG);

@@ -18,7 +18,7 @@ const FEWEST_STEPS: usize = 9;
 /// What lies this many nats below the best is left out.
 const NEGLIGIBLE: f64 = 12.0;
 /// Standard deviation of ln φ: the stated errors of the times are taken to be right within a quarter.
-const TIMING_DOUBT: f64 = 0.25;
+const TIMING_SCALE_STD: f64 = 0.25;
 /// Nodes and weights of Gauss and Hermite's rule for a standard normal variable: ±√3 and 0.
 const HERMITE: [(f64, f64); 3] = [
     (-1.732_050_807_568_877_2, 1.0 / 6.0),
@@ -67,8 +67,8 @@ impl Posterior {
             for (node, weight) in HERMITE {
                 let ln_timing = centre + width * node;
                 // The prior over the normal distribution that the rule is for.
-                let prior = 0.5 * (node * node - (ln_timing / TIMING_DOUBT).powi(2));
-                let share = weight * width / TIMING_DOUBT * if end { 0.5 } else { 1.0 };
+                let prior = 0.5 * (node * node - (ln_timing / TIMING_SCALE_STD).powi(2));
+                let share = weight * width / TIMING_SCALE_STD * if end { 0.5 } else { 1.0 };
                 let part = at(range.at(k), ln_timing.exp());
                 parts.extend(part.map(|(ln, sizes, s)| (ln + prior + share.ln(), sizes, s)));
             }
@@ -134,7 +134,7 @@ impl Posterior {
 }
 
 /// The sizes of the noises that are likeliest with the stated errors of the times, and their solution.
-pub(super) fn likeliest(
+pub(super) fn maximum_likelihood(
     bounces: &Bounces,
     noise: &Noise,
     priors: &[Prior],
@@ -177,13 +177,16 @@ fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)>
 
 /// Centre and width of the posterior of ln φ, by a parabola through three of its values.
 fn timing_scale(ln_likelihood: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
-    let ln = |x: f64| Some(ln_likelihood(x)? - 0.5 * (x / TIMING_DOUBT).powi(2));
+    let ln = |x: f64| Some(ln_likelihood(x)? - 0.5 * (x / TIMING_SCALE_STD).powi(2));
     let (less, same, more) = (ln(-LOOK)?, ln(0.0)?, ln(LOOK)?);
     let curvature = (2.0 * same - less - more) / (LOOK * LOOK);
     // The prior alone bends by its own width; the likelihood can bend the other way.
-    let width = curvature.max(TIMING_DOUBT.powi(-2)).sqrt().recip();
+    let width = curvature.max(TIMING_SCALE_STD.powi(-2)).sqrt().recip();
     let centre = width * width * (more - less) / (2.0 * LOOK);
-    Some((centre.clamp(-2.0 * TIMING_DOUBT, 2.0 * TIMING_DOUBT), width))
+    Some((
+        centre.clamp(-2.0 * TIMING_SCALE_STD, 2.0 * TIMING_SCALE_STD),
+        width,
+    ))
 }
 
 /// Where in the range of `ln σ_e` most balls are: at half a per cent.

@@ -1,16 +1,16 @@
 //! A trial of times and parameters, settled by rounds of linear fits.
 
-use super::bounces::{Bounces, Law, MOST, Terms, Values};
+use super::bounces::{Bounces, ImpactLaw, MOST_PARAMETERS, Terms, Values};
 use super::least_squares::{Prior, Solution};
 use super::noise::{Noise, Sizes};
-use super::posterior::likeliest;
+use super::posterior::maximum_likelihood;
 use crate::impact::Impact;
 use crate::physics::priors::Known;
 use crate::statistics::upper_median;
 
 /// The model is made linear anew around the times and parameters found until none of them moves by more than this share
 /// of its own standard error.
-const AT_REST: f64 = 0.05;
+const CONVERGED: f64 = 0.05;
 /// A trial that is not at rest after this many rounds has no solution near; five to ten are usual.
 const MOST_ROUNDS: usize = 60;
 /// An impact that was not heard may be off by this share of the flights around it.
@@ -35,7 +35,7 @@ pub(super) struct State<'a> {
     /// Squares of the times' standard errors.
     pub time_variances: Vec<f64>,
     /// By how much the variance of each bounce is greater than usual.
-    pub wildness: Vec<f64>,
+    pub variance_inflation: Vec<f64>,
 }
 
 impl<'a> State<'a> {
@@ -62,7 +62,7 @@ impl<'a> State<'a> {
             shorter,
             values: Values::default(),
             time_variances,
-            wildness: vec![1.0; impacts.len() - 2],
+            variance_inflation: vec![1.0; impacts.len() - 2],
         };
         state.values = state.possible(Values {
             contact_s: centre(terms.contact),
@@ -89,7 +89,7 @@ impl<'a> State<'a> {
 
     /// C in shortest intervals.
     fn longest_contact(&self) -> f64 {
-        if self.terms.law == Law::Linear {
+        if self.terms.law == ImpactLaw::Linear {
             LONGEST_LINEAR_CONTACT
         } else {
             LONGEST_CONTACT
@@ -113,7 +113,11 @@ impl<'a> State<'a> {
     }
 
     pub(super) fn noise(&self, bounces: &Bounces) -> Noise {
-        Noise::new(bounces, &self.time_variances, self.wildness.clone())
+        Noise::new(
+            bounces,
+            &self.time_variances,
+            self.variance_inflation.clone(),
+        )
     }
 
     /// What is known of each fitted parameter, counted from its trial value.
@@ -131,18 +135,18 @@ impl<'a> State<'a> {
 
     /// Finds times and parameters by rounds of linear fits at the likeliest noise. None if they find no rest, or only where
     /// a parameter is held back from running away.
-    pub(super) fn settle(&mut self) -> Option<()> {
-        self.settle_to(AT_REST, MOST_ROUNDS)
+    pub(super) fn converge(&mut self) -> Option<()> {
+        self.converge_to(CONVERGED, MOST_ROUNDS)
     }
 
     /// A trial that turns round goes to and fro about a solution: then it moves by half as much, and by twice as much where
     /// it goes on.
-    fn settle_to(&mut self, rest: f64, rounds: usize) -> Option<()> {
+    fn converge_to(&mut self, rest: f64, rounds: usize) -> Option<()> {
         let (mut share, mut before): (f64, Vec<f64>) = (1.0, Vec::new());
         for _ in 0..rounds {
             let bounces = self.bounces()?;
             let noise = self.noise(&bounces);
-            let (sizes, solution) = likeliest(&bounces, &noise, &self.priors())?;
+            let (sizes, solution) = maximum_likelihood(&bounces, &noise, &self.priors())?;
             let step = self.step(&bounces, &noise, sizes, solution)?;
             if step.in_stds.iter().all(|m| m.abs() < rest) {
                 return (!step.held_back).then_some(());
@@ -167,11 +171,12 @@ impl<'a> State<'a> {
         sizes: Sizes,
         mut solution: Solution,
     ) -> Option<Step> {
-        let stds: [f64; MOST] = std::array::from_fn(|i| solution.covariance[i][i].sqrt());
+        let stds: [f64; MOST_PARAMETERS] =
+            std::array::from_fn(|i| solution.covariance[i][i].sqrt());
         let held_back = self.hold(&mut solution);
         let pulls = pulls(bounces, noise, sizes, &solution)?;
         let mut moves_s = Vec::with_capacity(self.trial_s.len());
-        let mut in_stds = Vec::with_capacity(self.trial_s.len() + MOST);
+        let mut in_stds = Vec::with_capacity(self.trial_s.len() + MOST_PARAMETERS);
         for (k, trial_s) in self.trial_s.iter().enumerate() {
             let variance = sizes.timing.powi(2) * self.time_variances[k];
             let solved_s = self.impacts[k].time_s - variance * time_pull(bounces, &pulls, k);
@@ -179,7 +184,7 @@ impl<'a> State<'a> {
             in_stds.push((solved_s - trial_s) / variance.sqrt());
         }
         let ln_fast = (solution.values[0] - bounces.middle_loss).min(LEAST_LN_LOSS);
-        let mut moves = [0.0; MOST];
+        let mut moves = [0.0; MOST_PARAMETERS];
         moves[0] = ln_fast - self.values.ln_fast_restitution;
         let [contact, drag] = self.terms.places();
         for place in [contact, drag].into_iter().flatten() {
@@ -289,7 +294,7 @@ pub(super) fn time_pull(bounces: &Bounces, pulls: &[f64], time: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::fit::kind::ModelKind;
-    use crate::fit::ladder::{Choice, Inputs, climb};
+    use crate::fit::model_selection::{Choice, Inputs, select};
     use crate::fit::posterior::Posterior;
     use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
     use crate::random::SplitMix64;
@@ -316,16 +321,16 @@ mod tests {
     fn a_linear_ball_is_told_from_a_contact_by_exact_times() {
         for std_s in [1e-6, 1e-7] {
             let touches = touches(0.93, 80e-6, 65, std_s);
-            let climbed = climb(&touches, &Inputs::default(), Choice::Auto).unwrap();
+            let selection = select(&touches, &Inputs::default(), Choice::Auto).unwrap();
             let gain = |model: ModelKind| {
-                let mut candidates = climbed.candidates.iter();
+                let mut candidates = selection.candidates.iter();
                 candidates.find(|c| c.model == model).unwrap().gain_nats
             };
             let (linear, contact) = (gain(ModelKind::Linear), gain(ModelKind::Contact));
-            assert!(linear >= contact, "{:?}", climbed.candidates);
-            let ln_e = climbed.fit.ln_restitution.value + climbed.fit.ln_fast_gain;
+            assert!(linear >= contact, "{:?}", selection.candidates);
+            let ln_e = selection.fit.ln_restitution.value + selection.fit.ln_fast_gain;
             let off = ln_e - 0.93_f64.ln();
-            let std = climbed.fit.ln_restitution.std.unwrap();
+            let std = selection.fit.ln_restitution.std.unwrap();
             assert!(off.abs() < 2.0 * std, "{off:e} of {std:e}");
         }
     }
@@ -349,20 +354,20 @@ mod tests {
         ] {
             let touches = touches(e, contact_s, count, std_s);
             for terms in [
-                terms(contact, drag, Law::Alike),
-                terms(contact, None, Law::Linear),
-                terms(None, drag, Law::Viscoelastic),
+                terms(contact, drag, ImpactLaw::Alike),
+                terms(contact, None, ImpactLaw::Linear),
+                terms(None, drag, ImpactLaw::Viscoelastic),
             ] {
                 let evidence = |rest: f64, rounds: usize| {
                     let mut state = State::new(&touches, &terms);
-                    state.settle_to(rest, rounds)?;
+                    state.converge_to(rest, rounds)?;
                     let bounces = state.bounces()?;
                     let noise = state.noise(&bounces);
                     let posterior = Posterior::over_noise(&bounces, &noise, &state.priors())?;
                     Some(posterior.ln_evidence)
                 };
-                let usual = evidence(AT_REST, MOST_ROUNDS);
-                let longer = evidence(0.1 * AT_REST, 2 * MOST_ROUNDS);
+                let usual = evidence(CONVERGED, MOST_ROUNDS);
+                let longer = evidence(0.1 * CONVERGED, 2 * MOST_ROUNDS);
                 let moved = usual.zip(longer).map(|(a, b)| (a - b).abs());
                 assert!(moved.is_some_and(|m| m < 0.1), "{usual:?} {longer:?}");
                 compared += 1;

@@ -11,7 +11,7 @@ use crate::units::real;
 
 /// What (25) is solved from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Drop<'a> {
+pub struct TimedDrop<'a> {
     /// All impacts in order of time.
     pub impacts: &'a [Impact],
     /// The flights between them.
@@ -75,7 +75,7 @@ const HALF_A_BOUNCE: f64 = 1.5;
 ///
 /// # Errors
 /// [`Error::Argument`] if height or gravity is not positive.
-pub fn solve(drop: &Drop<'_>) -> Result<Result<TotalTime, Missing>, Error> {
+pub fn solve(drop: &TimedDrop<'_>) -> Result<Result<TotalTime, Missing>, Error> {
     let series = BounceSeries::new(drop.height_m, drop.gravity_m_per_s2)?;
     if let Some(missing) = missing(drop, &series) {
         return Ok(Err(missing));
@@ -138,7 +138,7 @@ const CONTACT_ROUNDS: usize = 6;
 /// h1 = g·T_1²/8,   e = √(h1/h0) = T_1·√(g/(8·h0)),   (σ/e)² = (σ_T/T_1)² + (σ_h/2h0)²
 /// ```
 #[must_use]
-pub fn first_rebound(drop: &Drop<'_>) -> Option<Estimate> {
+pub fn first_rebound(drop: &TimedDrop<'_>) -> Option<Estimate> {
     let flight = drop.flights.after(0)?;
     let value = flight * (drop.gravity_m_per_s2 / (8.0 * drop.height_m)).sqrt();
     let timing = drop.impacts[0].std_s.hypot(drop.impacts[1].std_s) / flight;
@@ -151,7 +151,7 @@ pub fn first_rebound(drop: &Drop<'_>) -> Option<Estimate> {
     })
 }
 
-fn missing(drop: &Drop<'_>, series: &BounceSeries) -> Option<Missing> {
+fn missing(drop: &TimedDrop<'_>, series: &BounceSeries) -> Option<Missing> {
     if let Some(first_flight_s) = drop.flights.after(0) {
         let longest_s = 2.0 * series.first_fall_s();
         if first_flight_s > longest_s {
@@ -189,7 +189,7 @@ pub fn left_s(impacts: &[Impact], flights: &Flights, restitution: f64) -> f64 {
 }
 
 /// Standard error of the total time: scatter, and the unheard end, of which anything may be missing.
-fn error_s(drop: &Drop<'_>) -> f64 {
+fn error_s(drop: &TimedDrop<'_>) -> f64 {
     let scatter = drop.flights.scatter().unwrap_or(0.0);
     let last = drop.impacts.last().map_or(0.0, |i| i.time_s);
     // A rebound stronger by a share makes all flights after it longer by that share.
@@ -221,7 +221,7 @@ mod tests {
     fn solved(impacts: &[Impact], height_m: f64) -> Result<TotalTime, Missing> {
         let flights = Flights::between(impacts);
         let restitution = flights.ratio().unwrap().value;
-        solve(&Drop {
+        solve(&TimedDrop {
             impacts,
             flights: &flights,
             restitution,
@@ -267,7 +267,7 @@ mod tests {
     fn the_first_rebound_is_the_first_restitution() {
         let impacts = impacts(0.5, 0.8, 5);
         let flights = Flights::between(&impacts);
-        let drop = Drop {
+        let drop = TimedDrop {
             impacts: &impacts,
             flights: &flights,
             restitution: 0.8,

@@ -4,7 +4,7 @@ use super::text::{digits_for, plus_minus};
 use super::wrap::wrapped;
 use super::{Drop, Report};
 use crate::fit::Estimate;
-use crate::fit::ensemble::{Ensemble, Measurement, Outlier, outliers};
+use crate::fit::random_effects::{Measurement, OutlyingMeasurement, RandomEffects, outliers};
 
 /// χ² as great as theirs by chance is rarer than this: they differ by more than they claim.
 const RARE: f64 = 0.01;
@@ -62,7 +62,7 @@ impl From<&Report> for Digest {
 }
 
 /// A line per drop, file by file, then what they say together: mean e, the spread between drops against that which they
-/// claim, and the outliers by name. See `Ensemble` and `outliers` for the formulas.
+/// claim, and the outliers by name. See `RandomEffects` and `outliers` for the formulas.
 #[must_use]
 pub fn summary(digests: &[Digest]) -> String {
     let mut out = String::new();
@@ -162,12 +162,12 @@ fn counts(digests: &[Digest]) -> String {
 /// What the drops say together, and without the outliers if there are any.
 fn together(named: &[(String, Measurement)]) -> String {
     let measurements: Vec<Measurement> = named.iter().map(|(_, m)| *m).collect();
-    let Some(ensemble) = Ensemble::of(&measurements) else {
+    let Some(pooled) = RandomEffects::of(&measurements) else {
         return String::new();
     };
-    let mut out = described(&ensemble);
+    let mut out = described(&pooled);
     let far = outliers(&measurements);
-    for (i, Outlier { index, distance }) in far.iter().enumerate() {
+    for (i, OutlyingMeasurement { index, distance }) in far.iter().enumerate() {
         let (name, (value, std)) = &named[*index];
         let label = if i == 0 { "outliers" } else { "" };
         let told = format!(
@@ -183,42 +183,42 @@ fn together(named: &[(String, Measurement)]) -> String {
         .filter(|(i, _)| far.iter().all(|o| o.index != *i))
         .map(|(_, m)| *m)
         .collect();
-    match Ensemble::of(&kept) {
+    match RandomEffects::of(&kept) {
         Some(rest) if !far.is_empty() => out + "Without them:\n" + &described(&rest),
         _ => out,
     }
 }
 
-fn described(ensemble: &Ensemble) -> String {
-    let judged = if ensemble.chance >= RARE {
+fn described(pooled: &RandomEffects) -> String {
+    let judged = if pooled.chance >= RARE {
         "no more than they claim".to_owned()
     } else {
-        let digits = digits_for(ensemble.between);
+        let digits = digits_for(pooled.between);
         format!(
             "more than they claim: ball, height, surface or what was heard makes them differ by {:.digits$} more \
              (one standard deviation)",
-            ensemble.between
+            pooled.between
         )
     };
-    let digits = digits_for(ensemble.spread.min(ensemble.claimed));
+    let digits = digits_for(pooled.spread.min(pooled.claimed));
     let spread = format!(
         "  spread   {:.digits$} between drops, where their errors claim {:.digits$}",
-        ensemble.spread, ensemble.claimed
+        pooled.spread, pooled.claimed
     );
-    let chance = match ensemble.chance {
+    let chance = match pooled.chance {
         rare if rare < 0.001 => "below 0.001".to_owned(),
         chance => format!("{chance:.3}"),
     };
     let birge = format!(
         "  Birge    {:.2} (χ² {:.1} for {} degrees of freedom, chance {chance}): the drops differ {judged}",
-        ensemble.birge,
-        ensemble.chi_square,
-        ensemble.count - 1,
+        pooled.birge,
+        pooled.chi_square,
+        pooled.count - 1,
     );
     format!(
         "  mean e   {} of {} drops\n{}\n{}\n",
-        plus_minus(ensemble.mean, ensemble.mean_std),
-        ensemble.count,
+        plus_minus(pooled.mean, pooled.mean_std),
+        pooled.count,
         wrapped(&spread, 11),
         wrapped(&birge, 11)
     )

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::Drop;
-use crate::fit::ladder::Candidate;
+use crate::fit::model_selection::Candidate;
 use crate::fit::{BallParameters, Estimate, ModelKind};
 use crate::physics::BallModel;
 use crate::words::words;

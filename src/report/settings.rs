@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use crate::Error;
-use crate::fit::ladder::Choice;
+use crate::fit::model_selection::Choice;
 use crate::timing::Timing;
 
 /// What is known beforehand and how to listen: what everyone begins with, and a setter for all that may differ.
@@ -48,7 +48,7 @@ pub struct Settings {
     pub diameter_m: Option<f64>,
     /// Time in contact at each impact in seconds, if known, taken to be right within 5 %.
     pub contact_time_s: Option<f64>,
-    /// The model of the intervals. Default: as far up the ladder as the recording supports.
+    /// The model of the intervals. Default: the one that the recording supports.
     pub model: Choice,
     /// Listen from here, in seconds. Default: the start.
     pub start_s: Option<f64>,

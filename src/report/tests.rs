@@ -83,7 +83,7 @@ fn a_document_of_labels_is_read_back_with_its_infinite_evidence() {
 #[test]
 fn settings_are_those_of_a_document_and_their_absence_is_the_default() {
     let mut settings = Settings::default();
-    (settings.model, settings.start_s) = (crate::fit::ladder::Choice::Linear, Some(1.5));
+    (settings.model, settings.start_s) = (crate::fit::model_selection::Choice::Linear, Some(1.5));
     let json = serde_json::to_string(&settings).unwrap();
     assert_eq!(serde_json::from_str::<Settings>(&json).unwrap(), settings);
     assert_eq!(

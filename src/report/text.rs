@@ -4,8 +4,8 @@ use super::{
     Ball, Drop, Estimates, Given, Impact, Model, Rejected, Report, Warning, rule, table,
     wrap::wrapped,
 };
-use crate::fit::ladder::ALIKE;
 use crate::fit::model::Budget;
+use crate::fit::model_selection::ALIKE;
 use crate::fit::{Estimate, ModelKind};
 
 /// How much is said.
@@ -327,7 +327,7 @@ fn warnings(out: &mut String, warnings: &[Warning]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::ladder::Candidate;
+    use crate::fit::model_selection::Candidate;
 
     #[test]
     fn a_model_says_what_it_has_because_it_was_given() {

@@ -1,8 +1,8 @@
 //! Tools for sampled signals, which know nothing of impacts: octave bands, whitening, correlation, interpolation.
 
+pub(crate) mod constant_fraction;
 pub mod correlate;
 pub mod filterbank;
-pub(crate) mod fraction;
 pub mod interpolate;
 pub(crate) mod logarithm;
 pub(crate) mod smooth;

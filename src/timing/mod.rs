@@ -7,7 +7,7 @@
 mod joint;
 
 use crate::impact::Impact;
-use crate::signal::fraction;
+use crate::signal::constant_fraction;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
 use crate::units::{real, samples_in};
@@ -82,7 +82,7 @@ fn by_fraction(sound: &Whitened<'_>, coarse: Impact) -> Option<Impact> {
     let centre = sound.sound().sample_at(coarse.time_s);
     let start = centre.checked_sub(samples_in(BEFORE_S, rate))?;
     let window = sound.between(start, centre + samples_in(AFTER_S, rate))?;
-    let rise = fraction::time(&window, centre - start, rate)?;
+    let rise = constant_fraction::time(&window, centre - start, rate)?;
     Some(Impact {
         time_s: sound.sound().time_s(real(start) + rise.position),
         std_s: rise.std / rate,

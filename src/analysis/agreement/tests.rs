@@ -92,7 +92,7 @@ fn ways_that_agree_call_for_nothing() {
 #[test]
 fn the_drag_of_the_air_is_named() {
     assert_eq!(codes(&LIGHT.impacts(), &with_height(0.3)), ["air_drag"]);
-    let model = crate::fit::ladder::Choice::Constant;
+    let model = crate::fit::model_selection::Choice::Constant;
     let constant = Settings {
         model,
         ..with_height(0.3)

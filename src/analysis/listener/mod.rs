@@ -1,6 +1,6 @@
 //! Listening to a recording of any length as it comes, in bounded memory.
 //!
-//! A cheap [watch](crate::detect::quiet) judges every quarter of a second. Where something rises a *scene* begins; it
+//! A cheap [gate](crate::detect::activity_gate) judges every quarter of a second. Where something rises a *scene* begins; it
 //! ends once nothing has risen for a while, is [analyzed](super::scene) at once, and its audio is let go. A scene that
 //! outgrows the memory is analyzed as far as it goes: drops that may go on past the cut wait for the rest.
 
@@ -9,7 +9,7 @@ use super::findings::Findings;
 use super::scene::{Bounds, hear};
 use crate::Error;
 use crate::detect::Detector;
-use crate::detect::quiet::Watch;
+use crate::detect::activity_gate::ActivityGate;
 use crate::report::Analysis;
 use crate::units::{frame_at, frame_time_s, frames, length, real, samples_in};
 
@@ -48,14 +48,14 @@ pub struct Listener {
     settings: Settings,
     sample_rate_hz: f64,
     detector: Detector,
-    watches: Vec<Watch>,
+    gates: Vec<ActivityGate>,
     /// The frames that are listened to, counted from the start of the recording.
     listened: std::ops::Range<u64>,
     /// Frames pushed so far.
     position: u64,
     /// The audio just before what is held: [`BEFORE_S`] of it, where there was so much.
     earlier: Vec<Vec<f32>>,
-    /// The audio held, channel by channel; its first frame is `held_from`, and `judged` is where the watches stand.
+    /// The audio held, channel by channel; its first frame is `held_from`, and `judged` is where the gates stand.
     held: Vec<Vec<f32>>,
     held_from: u64,
     judged: u64,
@@ -97,7 +97,7 @@ impl Listener {
         let budget = HELD_BYTES / size_of::<f32>() / channels;
         Ok(Self {
             detector,
-            watches: vec![Watch::new(sample_rate_hz); channels],
+            gates: vec![ActivityGate::new(sample_rate_hz); channels],
             listened: first..settings.end_s.map_or(u64::MAX, frame),
             position: 0,
             earlier: vec![Vec::new(); channels],
@@ -123,7 +123,7 @@ impl Listener {
             return Err(unlike(block.len()));
         }
         // A long block is taken in by parts, so that no more than a scene of it is held.
-        let unit = self.watches[0].unit();
+        let unit = self.gates[0].unit();
         for from in (0..length).step_by(unit) {
             let part = from..length.min(from + unit);
             self.push_with(|room| {
@@ -155,7 +155,7 @@ impl Listener {
             held.truncate(before + to);
             held.drain(before..(before + from).min(held.len()));
         }
-        let unit = self.watches[0].unit();
+        let unit = self.gates[0].unit();
         while self.unjudged() >= unit {
             self.judge(unit);
             self.let_go()?;
@@ -198,18 +198,18 @@ impl Listener {
         length(frame - self.held_from)
     }
 
-    /// Frames held that the watches have not judged yet.
+    /// Frames held that the gates have not judged yet.
     fn unjudged(&self) -> usize {
         self.held[0].len() - self.place(self.judged)
     }
 
-    /// Has the watches judge the next frames.
+    /// Has the gates judge the next frames.
     fn judge(&mut self, unit: usize) {
         let begin = self.place(self.judged);
         let mut rises = false;
-        for (watch, held) in self.watches.iter_mut().zip(&self.held) {
-            // Every watch has to hear everything.
-            rises |= watch.rises(&held[begin..begin + unit]);
+        for (gate, held) in self.gates.iter_mut().zip(&self.held) {
+            // Every gate has to hear everything.
+            rises |= gate.rises(&held[begin..begin + unit]);
         }
         let end = self.judged + frames(unit);
         if rises {
@@ -247,12 +247,12 @@ impl Listener {
                 self.forget(end - before);
             }
             Some(rises) if end - rises.from >= frames(self.most_held) => {
-                let settled = self.hear(rises.from, end, true)?;
+                let final_until = self.hear(rises.from, end, true)?;
                 self.scene = Some(Rises {
-                    from: settled,
+                    from: final_until,
                     ..rises
                 });
-                self.forget(settled);
+                self.forget(final_until);
             }
             _ => {}
         }
@@ -290,13 +290,19 @@ impl Listener {
         };
         let part = self.place(from)..self.place(to);
         let channels: Vec<&[f32]> = self.held.iter().map(|held| &held[part.clone()]).collect();
-        let told_s = self
+        let reported_s = self
             .findings
-            .told_after(frame_time_s(from, self.sample_rate_hz));
-        let heard = hear(&channels, &bounds, told_s, &self.detector, &self.settings)?;
-        let settled = frame_at(heard.settled_s, self.sample_rate_hz).clamp(from, to);
+            .reported_after(frame_time_s(from, self.sample_rate_hz));
+        let heard = hear(
+            &channels,
+            &bounds,
+            reported_s,
+            &self.detector,
+            &self.settings,
+        )?;
+        let final_until = frame_at(heard.final_until_s, self.sample_rate_hz).clamp(from, to);
         self.findings.add(heard);
-        Ok(settled)
+        Ok(final_until)
     }
 }
 

@@ -66,7 +66,7 @@ fn blocks_of_any_length_give_the_same() {
 
 #[test]
 fn a_drop_is_found_wherever_the_borders_of_units_are() {
-    let unit_s = real(Watch::new(RATE_HZ).unit()) / RATE_HZ;
+    let unit_s = real(ActivityGate::new(RATE_HZ).unit()) / RATE_HZ;
     for offset in [0.0, 0.01, 0.5, 0.98] {
         let start_s = (40.0 + offset) * unit_s;
         let found = heard(listener(), &recording(20.0, &[start_s]), 8_192);
@@ -148,7 +148,7 @@ fn a_scene_that_is_cut_loses_no_drop_and_tells_none_twice() {
 }
 
 #[test]
-fn a_drop_longer_than_the_memory_is_torn_and_that_is_said() {
+fn a_drop_longer_than_the_memory_is_split_and_that_is_said() {
     let mut short = listener();
     short.most_held = samples_in(2.0, RATE_HZ);
     let found = heard(short, &recording(10.0, &[1.0]), 8_192);

@@ -54,7 +54,7 @@ pub(super) fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], components:
             {
                 *right += scale * w * x;
             }
-            power *= s.slowness;
+            power *= s.contact_stretch;
         }
     }
     for t in 0..length {

@@ -3,7 +3,7 @@
 pub(crate) mod aligned;
 pub(crate) mod average;
 
-use super::fraction;
+use super::constant_fraction;
 use super::interpolate::{KERNEL, slope};
 use super::smooth::smoothed;
 use crate::units::real;
@@ -37,7 +37,7 @@ pub struct Template {
 #[derive(Debug)]
 pub(crate) struct Sample {
     pub amplitude: f64,
-    pub slowness: f64,
+    pub contact_stretch: f64,
     /// Its sound, all others taken out.
     pub sound: Vec<f64>,
     /// Variance of that, misfit included.
@@ -71,7 +71,7 @@ impl Template {
 
     /// Where its sound begins, in samples after its nominal onset: the constant fraction of its rise.
     pub(crate) fn onset(&self, rate: f64) -> f64 {
-        let rise = fraction::time(self.mean(), self.before, rate);
+        let rise = constant_fraction::time(self.mean(), self.before, rate);
         rise.map_or(0.0, |r| r.position - real(self.before))
     }
 
@@ -119,20 +119,25 @@ impl Template {
     }
 
     /// Learns the first samples of all components anew from some impacts, as many samples as their sounds have;
-    /// `slownesses` are those of all impacts.
+    /// `contact_stretches` are those of all impacts.
     ///
     /// # Formula
     /// ```text
     /// S(t) minimises Σ_i w_i(t)·(x_i(t)/a_i − Σ_c u_iᶜ·S_c(t))²,   w_i(t) = a_i²/noise_i(t)
     /// ```
-    pub(crate) fn learn(&mut self, impacts: &[Sample], slownesses: &[f64], smoothing: usize) {
+    pub(crate) fn learn(
+        &mut self,
+        impacts: &[Sample],
+        contact_stretches: &[f64],
+        smoothing: usize,
+    ) {
         let length = impacts.first().map_or(0, |s| s.sound.len());
         let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::weights).collect();
         if self.components.len() == 1 {
             weighted_mean(impacts, &weights, &mut self.components[0][..length]);
         } else {
             weighted_fit(impacts, &weights, &mut self.components);
-            self.learn_shapes(length, slownesses);
+            self.learn_shapes(length, contact_stretches);
         }
         let (misfit, noise) = self.left_over(impacts, &weights);
         self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
@@ -140,24 +145,25 @@ impl Template {
         if length == self.len() {
             self.measure(smoothing);
         }
-        self.learn_slopes(slownesses);
+        self.learn_slopes(contact_stretches);
     }
 
     /// The sound of each impact anew, up to where the components changed.
-    fn learn_shapes(&mut self, length: usize, slownesses: &[f64]) {
+    fn learn_shapes(&mut self, length: usize, contact_stretches: &[f64]) {
         let changed = if self.shapes.is_empty() {
             self.len()
         } else {
             length
         };
-        self.shapes.resize(slownesses.len(), vec![0.0; self.len()]);
-        for (shape, &u) in self.shapes.iter_mut().zip(slownesses) {
+        self.shapes
+            .resize(contact_stretches.len(), vec![0.0; self.len()]);
+        for (shape, &u) in self.shapes.iter_mut().zip(contact_stretches) {
             combine(&self.components, u, &mut shape[..changed]);
         }
     }
 
     /// The derivatives of the heads anew: a derivative of a sum is the sum of the derivatives.
-    fn learn_slopes(&mut self, slownesses: &[f64]) {
+    fn learn_slopes(&mut self, contact_stretches: &[f64]) {
         let (head, length) = (self.head, (self.head + KERNEL).min(self.len()));
         let slopes = self.components.iter().map(|c| {
             let mut slopes = slope(&c[..length]);
@@ -168,8 +174,8 @@ impl Template {
         if let [_] = slopes[..] {
             self.slopes = slopes;
         } else {
-            self.slopes.resize(slownesses.len(), Vec::new());
-            for (own, &u) in self.slopes.iter_mut().zip(slownesses) {
+            self.slopes.resize(contact_stretches.len(), Vec::new());
+            for (own, &u) in self.slopes.iter_mut().zip(contact_stretches) {
                 own.resize(head, 0.0);
                 combine(&slopes, u, own);
             }
@@ -199,7 +205,7 @@ impl Template {
         for (s, weights) in impacts.iter().zip(weights) {
             let square = s.amplitude * s.amplitude;
             let mut shape = vec![0.0; all.len()];
-            combine(&self.components, s.slowness, &mut shape);
+            combine(&self.components, s.contact_stretch, &mut shape);
             for t in 0..all.len() {
                 let share = weights[t] / all[t];
                 let left = s.sound[t] - s.amplitude * shape[t];
@@ -224,11 +230,11 @@ impl Sample {
 }
 
 /// `Σ_c uᶜ·S_c` for components `S_c`, as far as it is wanted.
-fn combine(components: &[Vec<f64>], slowness: f64, sum: &mut [f64]) {
+fn combine(components: &[Vec<f64>], contact_stretch: f64, sum: &mut [f64]) {
     sum.fill(0.0);
     for component in components.iter().rev() {
         for (s, c) in sum.iter_mut().zip(component) {
-            *s = *s * slowness + c;
+            *s = *s * contact_stretch + c;
         }
     }
 }
@@ -250,16 +256,16 @@ mod tests {
         let shapes = [|t: f64| (0.3 * t).sin(), |t: f64| 0.2 * (0.5 * t).cos()];
         let impacts: Vec<Sample> = (0..400)
             .map(|i| {
-                let (amplitude, slowness) = (50.0 + real(i % 7), 0.01 * real(i % 100) - 0.5);
+                let (amplitude, contact_stretch) = (50.0 + real(i % 7), 0.01 * real(i % 100) - 0.5);
                 let sound = (0..60).map(|t| {
-                    let shape = shapes[0](real(t)) + slowness * shapes[1](real(t));
+                    let shape = shapes[0](real(t)) + contact_stretch * shapes[1](real(t));
                     // Impacts differ by 2 % from sample 30 on.
                     let differs = if t < 30 { 0.0 } else { 0.02 * rng.normal() };
                     amplitude * (shape + differs) + rng.normal()
                 });
                 Sample {
                     amplitude,
-                    slowness,
+                    contact_stretch,
                     sound: sound.collect(),
                     noise: vec![1.0; 60],
                 }
@@ -267,8 +273,8 @@ mod tests {
             .collect();
         let mut template = Template::new(vec![0.0; 60], vec![0.0; 60], 10);
         template.components.push(vec![0.0; 60]);
-        let slownesses: Vec<f64> = impacts.iter().map(|s| s.slowness).collect();
-        template.learn(&impacts, &slownesses, 2);
+        let contact_stretches: Vec<f64> = impacts.iter().map(|s| s.contact_stretch).collect();
+        template.learn(&impacts, &contact_stretches, 2);
         for t in 0..60 {
             for (component, shape) in template.components.iter().zip(shapes) {
                 let off = component[t] - shape(real(t));
@@ -283,22 +289,22 @@ mod tests {
     #[test]
     fn heads_learnt_again_change_each_sound_and_its_derivative_as_learning_all_does() {
         let mut rng = SplitMix64::new(9);
-        let slownesses: Vec<f64> = (0..12).map(|i| 0.1 * real(i) - 0.5).collect();
+        let contact_stretches: Vec<f64> = (0..12).map(|i| 0.1 * real(i) - 0.5).collect();
         let mut sounds = |length: usize| -> Vec<Sample> {
-            let sample = |&slowness: &f64| Sample {
-                amplitude: 20.0 + slowness,
-                slowness,
+            let sample = |&contact_stretch: &f64| Sample {
+                amplitude: 20.0 + contact_stretch,
+                contact_stretch,
                 sound: (0..length).map(|_| 20.0 * rng.normal()).collect(),
                 noise: (0..length).map(|_| 1.0 + rng.normal().powi(2)).collect(),
             };
-            slownesses.iter().map(sample).collect()
+            contact_stretches.iter().map(sample).collect()
         };
         let mut template = Template::new(vec![0.0; 90], vec![0.0; 90], 10);
         template.components.resize(3, vec![0.0; 90]);
         for length in [90, template.head, template.head] {
-            template.learn(&sounds(length.min(90)), &slownesses, 2);
+            template.learn(&sounds(length.min(90)), &contact_stretches, 2);
             let head = template.head;
-            for (i, u) in slownesses.iter().enumerate() {
+            for (i, u) in contact_stretches.iter().enumerate() {
                 let mut shape = vec![0.0; 90];
                 combine(&template.components, *u, &mut shape);
                 assert_eq!(template.shape(i), shape);

@@ -1,6 +1,6 @@
 //! The first alignment: from the loudest impact along the drop, each impact matched with those next to it.
 
-use super::place::{Search, Window, best};
+use super::matched_search::{Search, Window, best_match};
 use super::start::Started;
 use super::{Place, Prior};
 use crate::signal::correlate::Correlator;
@@ -124,10 +124,10 @@ impl Head {
             reach,
             overdispersion: 1.0,
         };
-        let fit = best(correlator, window, &self.template.mean()[..head], search)?;
+        let found = best_match(correlator, window, &self.template.mean()[..head], search)?;
         Some(Place {
-            position: begin + fit.position + before,
-            amplitude: fit.amplitude,
+            position: begin + found.position + before,
+            amplitude: found.amplitude,
         })
     }
 }

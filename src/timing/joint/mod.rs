@@ -10,24 +10,24 @@
 //! each sample counts by what it knows.
 //!
 //! Where slow impacts last longer than fast ones, a match is late for them by half of what the contact takes longer.
-//! The [beginning](drift) of the sound does not know yet how long the contact will last and gives that away; S₁, S₂
+//! The [beginning](time_walk) of the sound does not know yet how long the contact will last and gives that away; S₁, S₂
 //! with `u = (v/v₁)^(−1/5)` (Hertz) are used in that case alone.
 //!
 //! # Phases
 //! [`Started`] holds what is known before any impact is matched, [`Aligned`] the impacts in their first alignment,
-//! [`Joint`](settle::Joint) settles template and times in turn, impact after impact, [`Followed`] holds them settled.
+//! [`Joint`](alternate::Joint) settles template and times in turn, impact after impact, [`Corrected`] holds them settled.
 
 mod align;
-mod beginnings;
-mod drift;
-mod noise;
-mod normal;
-mod place;
-mod settle;
-mod spread;
+mod alternate;
+mod interference;
+mod leading_edge;
+mod matched_search;
+mod normal_equations;
+mod standard_error;
 mod start;
 #[cfg(test)]
 mod tests;
+mod time_walk;
 
 use crate::impact::Impact;
 use crate::signal::sound::Sound;
@@ -36,8 +36,8 @@ use crate::signal::whiten::Whitened;
 use crate::statistics::upper_median;
 use crate::units::{real, whole};
 use align::Aligned;
-use drift::Followed;
 use start::Started;
+use time_walk::Corrected;
 
 /// Windows begin this long before the onset, in seconds.
 const BEFORE_S: f64 = 1e-3;
@@ -92,9 +92,9 @@ struct Place {
 pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<Impact>, Template)> {
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
-    let followed = drift::follow(&started, aligned);
-    let timed = timed(whitened.sound(), coarse, &started, &followed);
-    Some((timed, followed.joint.template))
+    let corrected = time_walk::correct(&started, aligned);
+    let timed = timed(whitened.sound(), coarse, &started, &corrected);
+    Some((timed, corrected.joint.template))
 }
 
 /// The impacts with their times and standard errors in seconds of the recording.
@@ -102,18 +102,25 @@ fn timed(
     recorded: &Sound<'_>,
     coarse: &[Impact],
     started: &Started,
-    followed: &Followed<'_>,
+    corrected: &Corrected<'_>,
 ) -> Vec<Impact> {
-    let (joint, late) = (&followed.joint, &followed.late);
+    let (joint, walk) = (&corrected.joint, &corrected.walk);
     let onset = joint.template.onset(started.rate);
     let usual = usual_move(&joint.priors, &joint.places);
-    let stds = spread::standard_errors(joint);
+    let stds = standard_error::standard_errors(joint);
     let in_recording = |i: usize| {
-        let (prior, slowness, doubt) = (joint.priors[i], started.slownesses[i], followed.doubts[i]);
+        let (prior, contact_stretch, ambiguity) = (
+            joint.priors[i],
+            started.contact_stretches[i],
+            corrected.ambiguities[i],
+        );
         let (position, std) = match stds[i] {
-            Some(std) if doubt <= prior.std => {
-                let position = joint.places[i].position + late.shift(slowness);
-                (position, std.hypot(late.std(slowness)).hypot(doubt))
+            Some(std) if ambiguity <= prior.std => {
+                let position = joint.places[i].position + walk.shift(contact_stretch);
+                (
+                    position,
+                    std.hypot(walk.std(contact_stretch)).hypot(ambiguity),
+                )
             }
             // It does not resemble the others, or rival places lie farther apart than the detector errs.
             _ => (prior.position + usual, prior.std),

@@ -39,7 +39,7 @@ pub(super) struct Started {
     /// Where the detector saw each impact.
     pub priors: Vec<Prior>,
     /// `(v/v₁)^(−1/5)` less its mean for each impact: how much longer than usual its contact lasts.
-    pub slownesses: Vec<f64>,
+    pub contact_stretches: Vec<f64>,
     /// The loudest of the impacts that nothing follows too soon.
     pub loudest: usize,
 }
@@ -82,7 +82,7 @@ impl Started {
             before,
             longest,
             head,
-            slownesses: slownesses(&flights),
+            contact_stretches: contact_stretches(&flights),
             flights,
             priors,
             loudest,
@@ -151,7 +151,7 @@ fn jitter(sound: &[f64], rate: f64) -> f64 {
 
 /// `(v/v₁)^(−1/5)` less its mean, an impact's speed being that of the flight before it; the first is as much faster than the
 /// second as the second than the third.
-fn slownesses(flights: &[f64]) -> Vec<f64> {
+fn contact_stretches(flights: &[f64]) -> Vec<f64> {
     let [first, second, ..] = flights else {
         return vec![0.0; flights.len() + 1];
     };

@@ -11,7 +11,7 @@ const COARSEST_STEP: f32 = 1.0 / 128.0;
 /// `q²/12` over half the rate, q being the recording's step: the smallest difference of neighbouring samples. Between
 /// the sounds of a coarse recording a few samples toggle by one step and the rest are equal, so no quantile of its
 /// energy knows this.
-pub(super) fn rounding_density(samples: &[f32], bank: &Filterbank) -> f64 {
+pub(super) fn quantization_density(samples: &[f32], bank: &Filterbank) -> f64 {
     // Without branches, in lanes: it is one of the few things that look at every sample.
     let mut least = [f32::INFINITY; LANES];
     let next = samples.get(1..).unwrap_or_default();

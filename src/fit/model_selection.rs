@@ -1,4 +1,5 @@
-//! The ladder of models: constant e, and what is added where the recording supports it or the user knows it.
+//! Model selection: constant e, and the terms that the recording supports or the user knows. The candidates are models of the
+//! intervals, compared by their evidence.
 
 use super::bounces::Terms;
 use super::kind::{BallParameters, ModelKind};
@@ -10,7 +11,7 @@ use crate::physics::priors::{CONTACT_S, DRAG_PER_S2, Known, LITTLE_DRAG_PER_S2, 
 use crate::words::words;
 
 words! {
-    /// Which rung to take.
+    /// The model to fit.
     #[derive(Default)]
     #[non_exhaustive]
     pub enum Choice {
@@ -42,7 +43,7 @@ pub struct Inputs {
 }
 
 /// From the simplest up. A model is compared with those that stand before it.
-const RUNGS: [ModelKind; 9] = [
+const CANDIDATES: [ModelKind; 9] = [
     ModelKind::Constant,
     ModelKind::Viscoelastic,
     ModelKind::Contact,
@@ -54,12 +55,12 @@ const RUNGS: [ModelKind; 9] = [
     ModelKind::ContactSpeed,
 ];
 
-/// A rung is climbed where the data are likelier on it by this many nats: odds of 7 to 1.
+/// A dearer candidate is selected where its evidence is greater by this many nats for each parameter: odds of 7 to 1.
 const WORTH: f64 = 2.0;
 /// Two models whose evidence differs by less than this are not told apart: odds of 20 to 1.
 pub(crate) const ALIKE: f64 = 3.0;
 
-/// A rung and how well it explains the drop.
+/// A model and how well it explains the drop.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Candidate {
     /// Which.
@@ -70,10 +71,10 @@ pub struct Candidate {
     pub restitution: f64,
 }
 
-/// The rung taken and those compared.
+/// The model selected and the candidates compared.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Climb {
-    /// The rung.
+pub struct Selection {
+    /// The model.
     pub selected: ModelKind,
     /// The fit.
     pub fit: Fit,
@@ -83,13 +84,13 @@ pub struct Climb {
     pub alike: Option<ModelKind>,
 }
 
-/// Fits the rung chosen, or climbs as far as the recording supports.
+/// Fits the model chosen, or selects the one that the recording supports.
 ///
 /// Evidence is the likelihood of the times with all parameters and the sizes of the noises integrated out over what is
-/// known of balls at large, so a parameter that buys nothing costs. The error of e counts in that another rung may be
+/// known of balls at large, so a parameter that buys nothing costs. The error of e counts in that another model may be
 /// the right one. None for fewer than three impacts.
 #[must_use]
-pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Climb> {
+pub fn select(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Selection> {
     let (contact, drag) = (inputs.contact_s.is_some(), inputs.drag_per_s2.is_some());
     let wanted = match choice {
         Choice::Auto => None,
@@ -98,10 +99,10 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         Choice::Drag if !drag => Some(ModelKind::Drag),
         Choice::Speed => Some(ModelKind::Speed),
         Choice::Viscoelastic => Some(ModelKind::Viscoelastic),
-        // What is known is in every rung.
+        // What is known is in every candidate.
         Choice::Constant | Choice::Contact | Choice::Drag => Some(ModelKind::Constant),
     };
-    let fits: Vec<(ModelKind, Fitted<'_>)> = RUNGS
+    let fits: Vec<(ModelKind, Fitted<'_>)> = CANDIDATES
         .into_iter()
         .filter(|&r| wanted.is_none_or(|wanted| r == wanted))
         .filter(|&r| is_fitted(r, inputs))
@@ -110,9 +111,9 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let lowest = fits.first()?.1.ln_evidence();
     let gain = |i: usize| fits[i].1.ln_evidence() - lowest;
     let mut best = 0;
-    for (i, (rung, _)) in fits.iter().enumerate() {
+    for (i, (kind, _)) in fits.iter().enumerate() {
         // Two parameters have to earn twice as much as one.
-        let dearer = parameters(*rung, inputs) - parameters(fits[best].0, inputs);
+        let dearer = parameters(*kind, inputs) - parameters(fits[best].0, inputs);
         if gain(i) > gain(best) + WORTH * dearer.max(0.0) {
             best = i;
         }
@@ -120,20 +121,20 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     let candidates: Vec<Candidate> = fits
         .iter()
         .enumerate()
-        .map(|(i, (rung, fit))| Candidate {
-            model: *rung,
+        .map(|(i, (kind, fit))| Candidate {
+            model: *kind,
             gain_nats: gain(i),
             restitution: fit.ln_restitution().exp(),
         })
         .collect();
     let selected = fits[best].0;
-    let rival = |rung: ModelKind| {
-        rung.has_drag() != selected.has_drag() && rung.is_by_speed() != selected.is_by_speed()
+    let rival = |kind: ModelKind| {
+        kind.has_drag() != selected.has_drag() && kind.is_by_speed() != selected.is_by_speed()
     };
     let alike = (0..fits.len())
         .find(|&i| rival(fits[i].0) && (gain(i) - gain(best)).abs() < ALIKE)
         .map(|i| fits[i].0);
-    // A rung is not preferred by less than it costs, so the one taken may have the lower evidence. What is much less likely
+    // A candidate is not preferred by less than it costs, so the one selected may have the lower evidence. What is much less likely
     // is discarded (Occam's window): far off, it would widen the standard error and not the interval.
     let highest = (0..fits.len()).map(gain).fold(f64::NEG_INFINITY, f64::max);
     let rivals: Vec<Rival> = (0..fits.len())
@@ -146,7 +147,7 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
         // It is not told from none.
         fit.drag_per_s2 = None;
     }
-    Some(Climb {
+    Some(Selection {
         selected,
         fit,
         candidates,
@@ -154,8 +155,8 @@ pub fn climb(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Clim
     })
 }
 
-impl Climb {
-    /// The ball of the rung taken, with e as fitted at the mean speed.
+impl Selection {
+    /// The ball of the model selected, with e as fitted at the mean speed.
     ///
     /// # Errors
     /// As [`ModelKind::ball`].
@@ -172,32 +173,32 @@ impl Climb {
     }
 }
 
-/// A term whose value is known is part of every rung and not a rung of its own.
-fn is_fitted(rung: ModelKind, inputs: &Inputs) -> bool {
+/// Whether a model is a candidate: a term whose value is known is part of every model and makes none of its own.
+fn is_fitted(kind: ModelKind, inputs: &Inputs) -> bool {
     // The weight is: it comes with a contact, known or not.
-    let contact_known = rung.has_contact() && !rung.is_linear() && inputs.contact_s.is_some();
-    !(contact_known || rung.has_drag() && inputs.drag_per_s2.is_some())
+    let contact_known = kind.has_contact() && !kind.is_linear() && inputs.contact_s.is_some();
+    !(contact_known || kind.has_drag() && inputs.drag_per_s2.is_some())
 }
 
-fn terms(rung: ModelKind, inputs: &Inputs) -> Terms {
+fn terms(kind: ModelKind, inputs: &Inputs) -> Terms {
     Terms {
         contact: inputs
             .contact_s
-            .or_else(|| rung.has_contact().then_some(CONTACT_S)),
-        drag: Some(inputs.drag_per_s2.unwrap_or(if rung.has_drag() {
+            .or_else(|| kind.has_contact().then_some(CONTACT_S)),
+        drag: Some(inputs.drag_per_s2.unwrap_or(if kind.has_drag() {
             DRAG_PER_S2
         } else {
             LITTLE_DRAG_PER_S2
         })),
-        speed: rung.has_exponent().then_some(SPEED_EXPONENT),
-        law: rung.law(),
+        speed: kind.has_exponent().then_some(SPEED_EXPONENT),
+        law: kind.law(),
     }
 }
 
-/// How many parameters a rung fits; that e goes with speed has to earn as much where a law says how.
-fn parameters(rung: ModelKind, inputs: &Inputs) -> f64 {
-    let contact = rung.has_contact() && inputs.contact_s.is_none();
-    [contact, rung.has_drag(), rung.is_by_speed()]
+/// How many parameters a model fits; that e goes with speed has to earn as much where a law says how.
+fn parameters(kind: ModelKind, inputs: &Inputs) -> f64 {
+    let contact = kind.has_contact() && inputs.contact_s.is_none();
+    [contact, kind.has_drag(), kind.is_by_speed()]
         .iter()
         .filter(|on| **on)
         .map(|_| 1.0)

@@ -1,6 +1,6 @@
 //! How slow impacts differ from fast ones: not at all, by the weight of a linear ball, or as viscoelastic spheres.
 
-use super::bounces::{Law, Terms, Values};
+use super::bounces::{ImpactLaw, Terms, Values};
 use crate::physics::ends::Ends;
 use crate::physics::{InterpolatedContact, VISCOELASTIC_POWER};
 use crate::units::real;
@@ -14,7 +14,7 @@ pub(super) struct Flight {
 
 /// What the law takes from ln e of one bounce, less what it takes at the mean speed: θ is ln e there.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Lost {
+pub(super) struct Loss {
     pub ln: f64,
     /// How that depends on θ, on C, and on ln of the flight before.
     pub by_restitution: f64,
@@ -23,30 +23,30 @@ pub(super) struct Lost {
 }
 
 /// The law of slow impacts.
-pub(super) struct Slowing {
-    law: Laws,
+pub(super) struct TrialLaw {
+    law: TrialKind,
     ln_restitution: f64,
 }
 
-enum Laws {
+enum TrialKind {
     Alike,
     Linear(InterpolatedContact),
     Viscoelastic,
 }
 
-impl Slowing {
+impl TrialLaw {
     /// None if a ball with these values would not leave.
     pub(super) fn of(trial_s: &[f64], terms: &Terms, values: Values) -> Option<Self> {
         let flights = trial_s.windows(2).map(|w| w[1] - w[0] - values.contact_s);
         let shortest = flights.fold(f64::INFINITY, f64::min);
         let ln_restitution = values.ln_fast_restitution;
         let law = match terms.law {
-            Law::Alike => Laws::Alike,
-            Law::Linear => Laws::Linear(InterpolatedContact::of(
+            ImpactLaw::Alike => TrialKind::Alike,
+            ImpactLaw::Linear => TrialKind::Linear(InterpolatedContact::of(
                 ln_restitution,
                 values.contact_s / shortest,
             )?),
-            Law::Viscoelastic => Laws::Viscoelastic,
+            ImpactLaw::Viscoelastic => TrialKind::Viscoelastic,
         };
         Some(Self {
             law,
@@ -61,14 +61,16 @@ impl Slowing {
         values: Values,
         ln_speeds: &[f64],
         mean_ln_speed: f64,
-    ) -> (Vec<Lost>, f64) {
+    ) -> (Vec<Loss>, f64) {
         match &self.law {
-            Laws::Alike => (vec![Lost::default(); ln_speeds.len()], 0.0),
-            Laws::Linear(weight) => self.by_weight(weight, values, ln_speeds, mean_ln_speed),
-            Laws::Viscoelastic => {
+            TrialKind::Alike => (vec![Loss::default(); ln_speeds.len()], 0.0),
+            TrialKind::Linear(contact) => {
+                self.with_gravity_in_contact(contact, values, ln_speeds, mean_ln_speed)
+            }
+            TrialKind::Viscoelastic => {
                 let lost = |ln_speed: &f64| {
                     let factor = (VISCOELASTIC_POWER * (ln_speed - mean_ln_speed)).exp();
-                    Lost {
+                    Loss {
                         ln: self.ln_restitution * (factor - 1.0),
                         by_restitution: factor - 1.0,
                         by_contact: 0.0,
@@ -86,18 +88,18 @@ impl Slowing {
     /// # Formula
     /// With `δ(s, e₀) ≈ −s·h(e₀)`, `κ = d ln h/d ln e₀ ≈ 1/l − 2l/(π² + l²) − 1/(1 + e₀)`, l = ln e₀, and
     /// `θ = l + δ̄`, δ̄ the loss at the mean speed: `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
-    fn by_weight(
+    fn with_gravity_in_contact(
         &self,
-        weight: &InterpolatedContact,
+        contact: &InterpolatedContact,
         values: Values,
         ln_speeds: &[f64],
         mean_ln_speed: f64,
-    ) -> (Vec<Lost>, f64) {
+    ) -> (Vec<Loss>, f64) {
         let at = |ln_speed: f64| {
             let flight_s = ln_speed.exp();
             let s = values.contact_s / flight_s;
-            let (ln, slope) = weight.at(s).loss;
-            Lost {
+            let (ln, slope) = contact.at(s).loss;
+            Loss {
                 ln,
                 by_restitution: 0.0,
                 by_contact: slope / flight_s,
@@ -113,7 +115,7 @@ impl Slowing {
             let own = at(*ln_speed);
             let ln = own.ln - middle.ln;
             let by_restitution = by_fast * ln;
-            Lost {
+            Loss {
                 ln,
                 by_restitution,
                 by_contact: own.by_contact - (1.0 + by_restitution) * middle.by_contact,
@@ -125,11 +127,11 @@ impl Slowing {
 
     /// The contact after a flight of this length, and its derivative by C.
     fn contact(&self, contact_s: f64, flight_s: f64) -> (f64, f64) {
-        let Laws::Linear(weight) = &self.law else {
+        let TrialKind::Linear(contact) = &self.law else {
             return (contact_s, 1.0);
         };
         let s = contact_s / flight_s;
-        let (longer, slope) = weight.at(s).longer;
+        let (longer, slope) = contact.at(s).longer;
         (contact_s * longer, longer + s * slope)
     }
 }
@@ -138,12 +140,12 @@ impl Slowing {
 const LEAST_SLOPE: f64 = 0.2;
 
 /// The flights between trial times. None if one is not longer than the contact before it.
-pub(super) fn flights(trial_s: &[f64], values: Values, slowing: &Slowing) -> Option<Vec<Flight>> {
+pub(super) fn flights(trial_s: &[f64], values: Values, law: &TrialLaw) -> Option<Vec<Flight>> {
     // The flight before the first interval was longer by 1/e.
     let first_s = trial_s[1] - trial_s[0] - values.contact_s;
-    let mut before_s = first_s / slowing.ln_restitution.exp();
+    let mut before_s = first_s / law.ln_restitution.exp();
     let flight = |w: &[f64]| {
-        let (contact_s, shorter) = slowing.contact(values.contact_s, before_s);
+        let (contact_s, shorter) = law.contact(values.contact_s, before_s);
         let ends = Ends::of(w[1] - w[0] - contact_s, values.drag_per_s2)?;
         before_s = ends.ln_landing.exp();
         Some(Flight { ends, shorter })

@@ -2,7 +2,7 @@
 
 /// Sums of the weighted least squares for amplitude and time.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Normal {
+pub(super) struct NormalEquations {
     shape_shape: f64,
     shape_slope: f64,
     slope_slope: f64,
@@ -10,7 +10,7 @@ pub(super) struct Normal {
     slope_sound: f64,
 }
 
-impl Normal {
+impl NormalEquations {
     /// Sums over the samples of a sound.
     pub(super) fn of(sound: &[f64], noise: &[f64], shape: &[f64], slopes: &[f64]) -> Self {
         let mut sums = Self::default();

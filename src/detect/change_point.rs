@@ -1,7 +1,7 @@
 //! How surely the energy went up at each moment.
 
-use super::rounding::rounding_density;
-use super::windows::{FALLING_SHARE, rises};
+use super::quantization::quantization_density;
+use super::running_mean::{FALLING_SHARE, mean_ratios};
 use crate::signal::filterbank::{Band, Filterbank};
 use crate::signal::logarithm::ln_from_one;
 use crate::units::{narrow, real};
@@ -27,13 +27,13 @@ const USUAL_QUANTILE: f64 = 0.9;
 pub struct Evidence {
     /// Nats for a rise at the start of each hop, summed over bands.
     pub total: Vec<f32>,
-    bands: Vec<Rise>,
+    bands: Vec<BandEvidence>,
     hop_s: f64,
 }
 
 /// The evidence of one band.
 #[derive(Debug)]
-struct Rise {
+struct BandEvidence {
     band: Band,
     /// Nats before scaling.
     own: Vec<f32>,
@@ -57,13 +57,13 @@ impl Evidence {
     #[must_use]
     pub fn of(bank: &Filterbank, samples: &[f32]) -> Self {
         let mut total = vec![0.0; samples.len().div_ceil(bank.hop())];
-        let rounding = rounding_density(samples, bank);
-        let bands: Vec<Rise> = bank
+        let quantization = quantization_density(samples, bank);
+        let bands: Vec<BandEvidence> = bank
             .split(samples)
             .into_iter()
             .map(|band| {
-                let rounding = rounding * band.width_hz;
-                Rise::of(band, bank.hop_s(), narrow(rounding))
+                let quantization = quantization * band.width_hz;
+                BandEvidence::of(band, bank.hop_s(), narrow(quantization))
             })
             .collect();
         for band in &bands {
@@ -121,13 +121,13 @@ impl Evidence {
     /// Of slow sounds, which only low bands hear, quick bands know nothing, yet chance lets one of them speak. So where
     /// the evidence lies in bands as slow as that, the quickest is the one up to which it is more than chance.
     fn reach(&self, peak: usize) -> usize {
-        let voice = |rise: &Rise| rise.scale * rise.own[peak];
-        let loudest = self.bands.iter().map(voice).fold(0.0, f32::max);
-        let speaking = self
+        let nats = |rise: &BandEvidence| rise.scale * rise.own[peak];
+        let loudest = self.bands.iter().map(nats).fold(0.0, f32::max);
+        let contributing = self
             .bands
             .iter()
-            .filter(|rise| voice(rise) >= SPEAKING * loudest);
-        let quickest = speaking.map(|rise| rise.after).min().unwrap_or(2);
+            .filter(|rise| nats(rise) >= CONTRIBUTING * loudest);
+        let quickest = contributing.map(|rise| rise.after).min().unwrap_or(2);
         let slow = self.reach_of_evidence(peak);
         if real(slow) * self.hop_s > SLOW_S {
             slow
@@ -153,7 +153,7 @@ impl Evidence {
 const JITTER_SHARE: f64 = 0.1;
 
 /// A band speaks for a peak if it gives at least this share of what the loudest band gives.
-const SPEAKING: f32 = 0.25;
+const CONTRIBUTING: f32 = 0.25;
 
 /// So many nats chance hardly ever gives, in all bands together.
 const BEYOND_CHANCE: f32 = 10.0;
@@ -163,8 +163,8 @@ const SLOW_S: f64 = 10e-3;
 /// Symmetric filters let a sound be heard before it begins, this much fainter in energy; fainter is not believed.
 const LEAKAGE: f32 = 1e-3;
 
-impl Rise {
-    fn of(band: Band, hop_s: f64, rounding: f32) -> Self {
+impl BandEvidence {
+    fn of(band: Band, hop_s: f64, quantization: f32) -> Self {
         let window = |shortest_s: f64, values: f64| {
             crate::units::samples_in(shortest_s.max(values / (2.0 * band.width_hz)), 1.0 / hop_s)
                 .max(2)
@@ -176,14 +176,14 @@ impl Rise {
         let greatest = band.energies.iter().copied().fold(0.0, f32::max);
         let floor = (FLOOR_SHARE * quantile(&band.energies, FLOOR_QUANTILE))
             .max(FLOOR_RANGE * greatest)
-            .max(rounding);
+            .max(quantization);
         let own = if floor > 0.0 {
             let per_hop = 2.0 * band.width_hz * hop_s;
             let ratio = LogRatio::new(
                 per_hop * FALLING_SHARE * real(after),
                 per_hop * real(before),
             );
-            let mut ratios = rises(&band.energies, after, before, floor);
+            let mut ratios = mean_ratios(&band.energies, after, before, floor);
             ratio.apply(&mut ratios);
             ratios
         } else {

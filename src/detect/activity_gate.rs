@@ -1,4 +1,4 @@
-//! A cheap watch over everything: most of a long recording is nothing but its own noise.
+//! A cheap gate over everything: most of a long recording is nothing but its own noise.
 
 use crate::units::{narrow, real, samples_in};
 
@@ -24,7 +24,7 @@ const SILENCE: f32 = 1e-14;
 ///
 /// Before the first sample there is silence, so the first sound of a recording always rises.
 #[derive(Debug, Clone)]
-pub struct Watch {
+pub struct ActivityGate {
     frame: usize,
     unit: usize,
     all: Past,
@@ -32,8 +32,8 @@ pub struct Watch {
     low: Past,
 }
 
-impl Watch {
-    /// A watch over samples at this rate.
+impl ActivityGate {
+    /// A gate over samples at this rate.
     #[must_use]
     pub fn new(sample_rate_hz: f64) -> Self {
         let frame = samples_in(FRAME_S, sample_rate_hz)
@@ -184,10 +184,10 @@ mod tests {
 
     /// The units, by the second they begin in, in which something rises.
     fn restless_s(samples: &[f32]) -> Vec<f64> {
-        let mut watch = Watch::new(RATE_HZ);
-        let unit = watch.unit();
+        let mut gate = ActivityGate::new(RATE_HZ);
+        let unit = gate.unit();
         let starts = (0..samples.len()).step_by(unit);
-        let restless = starts.filter(|&i| watch.rises(&samples[i..samples.len().min(i + unit)]));
+        let restless = starts.filter(|&i| gate.rises(&samples[i..samples.len().min(i + unit)]));
         restless.map(|i| real(i) / RATE_HZ).collect()
     }
 
@@ -202,7 +202,7 @@ mod tests {
     #[test]
     fn a_click_at_the_very_start_of_a_unit_rises_out_of_the_unit_before() {
         let mut sound = noise_with(0.0);
-        let border = Watch::new(RATE_HZ).unit();
+        let border = ActivityGate::new(RATE_HZ).unit();
         sound[8 * border] = 0.3;
         assert_eq!(restless_s(&sound), [0.0, real(8 * border) / RATE_HZ]);
     }

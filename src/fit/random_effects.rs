@@ -15,7 +15,7 @@ pub type Measurement = (f64, f64);
 
 /// What measurements say together.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Ensemble {
+pub struct RandomEffects {
     /// How many there are.
     pub count: usize,
     /// Their mean, each weighted by its own error and what lies between them.
@@ -36,7 +36,7 @@ pub struct Ensemble {
     pub birge: f64,
 }
 
-impl Ensemble {
+impl RandomEffects {
     /// Of two measurements or more.
     ///
     /// # Formula
@@ -74,7 +74,7 @@ impl Ensemble {
 
 /// An outlier: the number of the measurement, and its distance from the median over the spread to be expected.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Outlier {
+pub struct OutlyingMeasurement {
     /// Its place among the measurements, from 0.
     pub index: usize,
     /// The distance, in standard deviations, above 0 where the value is the greater.
@@ -94,7 +94,7 @@ pub struct Outlier {
 /// as s knows the spread no better than a third of the measurements would. With it, one batch in 20 without outliers or
 /// fewer has one named; among three measurements hardly anything is an outlier.
 #[must_use]
-pub fn outliers(measurements: &[Measurement]) -> Vec<Outlier> {
+pub fn outliers(measurements: &[Measurement]) -> Vec<OutlyingMeasurement> {
     let count = real(measurements.len());
     let (Some(middle), Some(variance)) = (
         median(measurements.iter().map(|(x, _)| *x)),
@@ -115,7 +115,7 @@ pub fn outliers(measurements: &[Measurement]) -> Vec<Outlier> {
         .enumerate()
         .filter(|(_, distance)| distance.abs() > far);
     named
-        .map(|(index, distance)| Outlier { index, distance })
+        .map(|(index, distance)| OutlyingMeasurement { index, distance })
         .collect()
 }
 
@@ -134,28 +134,28 @@ mod tests {
     #[test]
     fn a_small_case_is_as_by_hand() {
         // Weights 1 and 1/4: m = 0.4, χ² = 0.16 + 2.56/4 = 0.8 for one degree of freedom, and τ = 0.
-        let ensemble = Ensemble::of(&[(0.0, 1.0), (2.0, 2.0)]).unwrap();
-        assert!((ensemble.mean - 0.4).abs() < 1e-12, "{ensemble:?}");
-        assert!((ensemble.mean_std - 1.25_f64.sqrt().recip()).abs() < 1e-12);
-        assert!((ensemble.chi_square - 0.8).abs() < 1e-12);
-        assert!((ensemble.chance - 0.3711).abs() < 1e-4);
-        assert!((ensemble.spread - 2.0_f64.sqrt()).abs() < 1e-12);
-        assert!((ensemble.claimed - 2.5_f64.sqrt()).abs() < 1e-12);
-        assert_eq!(ensemble.between, 0.0);
+        let pooled = RandomEffects::of(&[(0.0, 1.0), (2.0, 2.0)]).unwrap();
+        assert!((pooled.mean - 0.4).abs() < 1e-12, "{pooled:?}");
+        assert!((pooled.mean_std - 1.25_f64.sqrt().recip()).abs() < 1e-12);
+        assert!((pooled.chi_square - 0.8).abs() < 1e-12);
+        assert!((pooled.chance - 0.3711).abs() < 1e-4);
+        assert!((pooled.spread - 2.0_f64.sqrt()).abs() < 1e-12);
+        assert!((pooled.claimed - 2.5_f64.sqrt()).abs() < 1e-12);
+        assert_eq!(pooled.between, 0.0);
     }
 
     #[test]
     fn one_measurement_has_no_spread() {
-        assert_eq!(Ensemble::of(&[(0.9, 0.1)]), None);
-        assert_eq!(Ensemble::of(&[]), None);
+        assert_eq!(RandomEffects::of(&[(0.9, 0.1)]), None);
+        assert_eq!(RandomEffects::of(&[]), None);
         assert!(outliers(&[(0.9, 0.1)]).is_empty() && outliers(&[]).is_empty());
     }
 
     #[test]
     fn a_spread_beyond_the_errors_is_seen_and_measured() {
-        let honest = Ensemble::of(&made(400, 0.0, 1)).unwrap();
+        let honest = RandomEffects::of(&made(400, 0.0, 1)).unwrap();
         assert!((honest.birge - 1.0).abs() < 0.1 && honest.chance > 0.01);
-        let wide = Ensemble::of(&made(400, 4e-3, 1)).unwrap();
+        let wide = RandomEffects::of(&made(400, 4e-3, 1)).unwrap();
         assert!(wide.birge > 3.5 && wide.chance < 1e-9);
         assert!((wide.between - 4e-3).abs() < 5e-4, "{wide:?}");
         // The error of the mean is that of the spread, not the one claimed.

@@ -1,30 +1,30 @@
 //! Slow impacts last longer than fast ones, and their sound with them; its beginning does not.
 
 use super::align::Aligned;
-use super::beginnings::{Beginnings, beginning};
-use super::settle::Joint;
+use super::alternate::Joint;
+use super::leading_edge::{LeadingEdges, edge_length};
 use super::start::Started;
 use crate::signal::template::average::factors;
 use crate::statistics::{MAD_TO_STD, upper_median};
 
 /// What is added to the positions so that they stand at the touch and not at a constant share of the contact:
-/// `c₁·u + c₂·u²` samples for a slowness u. A longer contact makes c₁; where components were learnt in u and u², the
+/// `c₁·u + c₂·u²` samples for a contact stretch u. A longer contact makes c₁; where components were learnt in u and u², the
 /// positions are free by as much of both, and the beginnings settle that too.
 #[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Late {
+pub(super) struct TimeWalk {
     terms: [f64; 2],
     covariance: [[f64; 2]; 2],
 }
 
-impl Late {
-    /// Samples to add at a slowness.
-    pub(super) fn shift(&self, slowness: f64) -> f64 {
-        self.terms[0] * slowness + self.terms[1] * slowness * slowness
+impl TimeWalk {
+    /// Samples to add at a contact stretch.
+    pub(super) fn shift(&self, contact_stretch: f64) -> f64 {
+        self.terms[0] * contact_stretch + self.terms[1] * contact_stretch * contact_stretch
     }
 
-    /// Standard error of that, against a slowness of 0.
-    pub(super) fn std(&self, slowness: f64) -> f64 {
-        self.std_of([slowness, slowness * slowness])
+    /// Standard error of that, against a contact stretch of 0.
+    pub(super) fn std(&self, contact_stretch: f64) -> f64 {
+        self.std_of([contact_stretch, contact_stretch * contact_stretch])
     }
 
     fn std_of(&self, by: [f64; 2]) -> f64 {
@@ -80,34 +80,34 @@ const MORE_ROUNDS: usize = 5;
 
 /// All times settled.
 #[derive(Debug)]
-pub(super) struct Followed<'a> {
+pub(super) struct Corrected<'a> {
     pub joint: Joint<'a>,
     /// What is to be added for a drift.
-    pub late: Late,
+    pub walk: TimeWalk,
     /// Standard error of each position by rival places, in samples; 0 where none were sought.
-    pub doubts: Vec<f64>,
+    pub ambiguities: Vec<f64>,
 }
 
 /// Settles all times, with or without a drift.
-pub(super) fn follow(started: &Started, aligned: Aligned) -> Followed<'_> {
-    if let Some((joint, late)) = drifting(started, &aligned) {
-        return Followed {
-            doubts: vec![0.0; joint.places.len()],
+pub(super) fn correct(started: &Started, aligned: Aligned) -> Corrected<'_> {
+    if let Some((joint, walk)) = with_walk(started, &aligned) {
+        return Corrected {
+            ambiguities: vec![0.0; joint.places.len()],
             joint,
-            late,
+            walk,
         };
     }
     let mut joint = Joint::of(started, aligned, 1);
-    let doubts = joint.settle_whole();
-    Followed {
+    let ambiguities = joint.search_and_alternate();
+    Corrected {
         joint,
-        late: Late::default(),
-        doubts,
+        walk: TimeWalk::default(),
+        ambiguities,
     }
 }
 
-/// The impacts settled as those that differ by their slowness, and their drift; none if they have none.
-fn drifting<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, Late)> {
+/// The impacts settled as those that differ by their contact stretch, and their drift; none if they have none.
+fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, TimeWalk)> {
     let count = aligned.places.len();
     if count < FEWEST {
         return None;
@@ -115,76 +115,76 @@ fn drifting<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, L
     let more = [FEWEST_LINEAR, FEWEST_SQUARE];
     let components = 1 + more.iter().filter(|&&n| count >= n).count();
     let mut joint = Joint::of(started, aligned.clone(), components);
-    joint.settle(FIRST_ROUNDS);
-    late(&joint)?;
+    joint.alternate(FIRST_ROUNDS);
+    significant_walk(&joint)?;
     // Jumps would be to where the wrong shape fits: impacts of all speeds have to teach it first.
-    joint.settle(MORE_ROUNDS);
-    let late = late(&joint)?;
-    Some((joint, late))
+    joint.alternate(MORE_ROUNDS);
+    let walk = significant_walk(&joint)?;
+    Some((joint, walk))
 }
 
 /// The drift, if it is one: slow impacts match late, and two beginnings say so, of all impacts or of the clear ones.
-fn late(joint: &Joint<'_>) -> Option<Late> {
+fn significant_walk(joint: &Joint<'_>) -> Option<TimeWalk> {
     let by = |clear| {
         let mut pairs = SHARES.windows(2);
-        pairs.find_map(|pair| late_by(joint, clear, pair))
+        pairs.find_map(|pair| agreeing_walk(joint, clear, pair))
     };
     CLEAR.into_iter().find_map(by)
 }
 
 /// The same by two beginnings, of the impacts that are so clear.
-fn late_by(joint: &Joint<'_>, clear: f64, shares: &[f64]) -> Option<Late> {
+fn agreeing_walk(joint: &Joint<'_>, clear: f64, shares: &[f64]) -> Option<TimeWalk> {
     let &[longer, shorter] = shares else {
         return None;
     };
-    let mut begins = Beginnings::of(joint, longer, clear)?;
-    let longer = drift(joint, &begins.settled())?;
+    let mut begins = LeadingEdges::of(joint, longer, clear)?;
+    let longer = fitted(joint, &begins.aligned())?;
     // From where the longer beginnings stand, the shorter ones cannot be missed.
-    begins.length = beginning(joint, shorter)?;
-    let places = begins.settled();
-    let shorter = drift(joint, &places)?;
-    let known = joint.started.slownesses.iter().zip(&places);
-    let slownesses = known.filter_map(|(&slowness, place)| place.map(|_| slowness));
-    let range = slownesses.fold((0.0_f64, 0.0_f64), |(a, b), u| (a.min(u), b.max(u)));
+    begins.length = edge_length(joint, shorter)?;
+    let places = begins.aligned();
+    let shorter = fitted(joint, &places)?;
+    let known = joint.started.contact_stretches.iter().zip(&places);
+    let stretches = known.filter_map(|(&u, place)| place.map(|_| u));
+    let range = stretches.fold((0.0_f64, 0.0_f64), |(a, b), u| (a.min(u), b.max(u)));
     let ((long, long_std), (short, short_std)) = (longer.whole(range), shorter.whole(range));
     let agree = (short - long).abs() < AGREEING * short_std.hypot(long_std);
     (agree && short < -SIGNIFICANT * short_std).then_some(shorter)
 }
 
-/// "Begins" less "matches" as a function of slowness, by least squares that forgive what lies far off.
-fn drift(joint: &Joint<'_>, begins: &[Option<(f64, f64)>]) -> Option<Late> {
-    let matched = joint.places.iter().zip(&joint.started.slownesses);
-    let values: Vec<Value> = begins
+/// "Begins" less "matches" as a function of contact stretch, by least squares that forgive what lies far off.
+fn fitted(joint: &Joint<'_>, begins: &[Option<(f64, f64)>]) -> Option<TimeWalk> {
+    let matched = joint.places.iter().zip(&joint.started.contact_stretches);
+    let offsets: Vec<EdgeOffset> = begins
         .iter()
         .zip(matched)
-        .filter_map(|(begin, (place, &slowness))| {
+        .filter_map(|(begin, (place, &contact_stretch))| {
             let (position, std) = (*begin)?;
-            Some(Value {
-                slowness,
-                late: position - place.position,
+            Some(EdgeOffset {
+                contact_stretch,
+                offset: position - place.position,
                 std: std.hypot(SCATTER_S * joint.started.rate),
             })
         })
         .collect();
-    if values.len() < FEWEST {
+    if offsets.len() < FEWEST {
         return None;
     }
     let terms = joint.template.components.len().max(2);
-    average(&values, terms, LIMIT)
+    robust_fit(&offsets, terms, LIMIT)
 }
 
 /// The curve through all values, each weighed anew by how far off it lies until the curve rests: Cauchy's weights, for three
 /// robust standard deviations.
-fn average(values: &[Value], terms: usize, limit: usize) -> Option<Late> {
+fn robust_fit(values: &[EdgeOffset], terms: usize, limit: usize) -> Option<TimeWalk> {
     let mut weights: Vec<f64> = values.iter().map(|v| 1.0 / (v.std * v.std)).collect();
-    let mut drift: Option<Late> = None;
+    let mut walk: Option<TimeWalk> = None;
     for _ in 0..limit {
         let curve = Curve::through(values, &weights, terms)?;
-        let off = |v: &Value| (v.late - curve.at(v.slowness)) / v.std;
+        let off = |v: &EdgeOffset| (v.offset - curve.at(v.contact_stretch)) / v.std;
         let scale = (MAD_TO_STD * upper_median(values.iter().map(|v| off(v).abs()))?).max(1.0);
-        let late = curve.late(scale);
-        let rests = drift.is_some_and(|before| late.moved_from(&before) < REST);
-        drift = Some(late);
+        let fitted = curve.walk(scale);
+        let rests = walk.is_some_and(|before| fitted.moved_from(&before) < REST);
+        walk = Some(fitted);
         if rests {
             break;
         }
@@ -192,13 +192,13 @@ fn average(values: &[Value], terms: usize, limit: usize) -> Option<Late> {
             *w = 1.0 / (v.std * v.std * (1.0 + (off(v) / (3.0 * scale)).powi(2)));
         }
     }
-    drift
+    walk
 }
 
 /// How much later than it begins an impact matches.
-struct Value {
-    slowness: f64,
-    late: f64,
+struct EdgeOffset {
+    contact_stretch: f64,
+    offset: f64,
     std: f64,
 }
 
@@ -209,16 +209,16 @@ struct Curve {
 }
 
 impl Curve {
-    fn through(values: &[Value], weights: &[f64], terms: usize) -> Option<Self> {
+    fn through(values: &[EdgeOffset], weights: &[f64], terms: usize) -> Option<Self> {
         let (mut moments, mut right) = ([0.0; 5], [0.0; 3]);
         for (v, weight) in values.iter().zip(weights) {
             let mut power = *weight;
             for (k, moment) in moments.iter_mut().enumerate() {
                 *moment += power;
                 if k < terms {
-                    right[k] += power * v.late;
+                    right[k] += power * v.offset;
                 }
-                power *= v.slowness;
+                power *= v.contact_stretch;
             }
         }
         let factors = factors(&moments, terms)?;
@@ -228,15 +228,15 @@ impl Curve {
         })
     }
 
-    fn at(&self, slowness: f64) -> f64 {
+    fn at(&self, contact_stretch: f64) -> f64 {
         let [level, slope, bend] = self.coefficients;
-        level + slowness * (slope + slowness * bend)
+        level + contact_stretch * (slope + contact_stretch * bend)
     }
 
     /// All but its level; errors are larger than weights say by a factor.
-    fn late(&self, scale: f64) -> Late {
+    fn walk(&self, scale: f64) -> TimeWalk {
         let c = |i: usize, j: usize| self.covariance[i][j] * scale * scale;
-        Late {
+        TimeWalk {
             terms: [self.coefficients[1], self.coefficients[2]],
             covariance: [[c(1, 1), c(1, 2)], [c(2, 1), c(2, 2)]],
         }
@@ -254,21 +254,21 @@ mod tests {
         let mut rng = SplitMix64::new(5);
         for terms in [2, 3] {
             let values = (0..40).map(|i| {
-                let slowness = 0.02 * real(i) - 0.4;
+                let contact_stretch = 0.02 * real(i) - 0.4;
                 let off = if i % 8 == 0 { 60.0 } else { 0.0 };
-                let late = 2.0 - 9.0 * slowness + 0.5 * rng.normal() + off;
-                Value {
-                    slowness,
-                    late,
+                let offset = 2.0 - 9.0 * contact_stretch + 0.5 * rng.normal() + off;
+                EdgeOffset {
+                    contact_stretch,
+                    offset,
                     std: 0.5,
                 }
             });
-            let values: Vec<Value> = values.collect();
-            let late = average(&values, terms, LIMIT).unwrap();
-            let (slope, std) = (late.terms[0], late.covariance[0][0].sqrt());
+            let offsets: Vec<EdgeOffset> = values.collect();
+            let walk = robust_fit(&offsets, terms, LIMIT).unwrap();
+            let (slope, std) = (walk.terms[0], walk.covariance[0][0].sqrt());
             assert!((slope + 9.0).abs() < 3.0 * std, "{slope} ± {std}");
-            let longer = average(&values, terms, 2 * LIMIT).unwrap();
-            assert_eq!(late.terms, longer.terms);
+            let longer = robust_fit(&offsets, terms, 2 * LIMIT).unwrap();
+            assert_eq!(walk.terms, longer.terms);
         }
     }
 }

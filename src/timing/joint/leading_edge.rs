@@ -1,7 +1,7 @@
 //! The beginnings of the sounds, which do not know yet how long a contact lasts.
 
-use super::normal::Normal;
-use super::settle::Joint;
+use super::alternate::Joint;
+use super::normal_equations::NormalEquations;
 use crate::signal::interpolate::{KERNEL, shifted, slope};
 use crate::signal::template::aligned::{Cut, mean};
 use crate::units::{real, samples_in};
@@ -19,7 +19,7 @@ fn lead(joint: &Joint<'_>) -> usize {
 }
 
 /// Samples of a beginning that ends at a share of the greatest value.
-pub(super) fn beginning(joint: &Joint<'_>, share: f64) -> Option<usize> {
+pub(super) fn edge_length(joint: &Joint<'_>, share: f64) -> Option<usize> {
     let onset = joint.template.before;
     let within = samples_in(PEAK_WITHIN_S, joint.started.rate);
     let mean = joint.template.mean();
@@ -30,7 +30,7 @@ pub(super) fn beginning(joint: &Joint<'_>, share: f64) -> Option<usize> {
 }
 
 /// The beginnings of all impacts, each matched with the mean of them.
-pub(super) struct Beginnings {
+pub(super) struct LeadingEdges {
     /// Each impact's sound, the others taken out, with a margin on both sides.
     sounds: Vec<Vec<f64>>,
     /// Where each stands in its sound, and its size.
@@ -46,10 +46,10 @@ pub(super) struct Beginnings {
     clear: f64,
 }
 
-impl Beginnings {
+impl LeadingEdges {
     pub(super) fn of(joint: &Joint<'_>, share: f64, clear: f64) -> Option<Self> {
         let lead = lead(joint);
-        let length = beginning(joint, share)?;
+        let length = edge_length(joint, share)?;
         let margin = samples_in(LEAD_S, joint.started.rate) + KERNEL;
         let first = real(lead + margin);
         let sounds = joint.surroundings(lead + margin, length + 2 * margin + KERNEL);
@@ -66,7 +66,7 @@ impl Beginnings {
     }
 
     /// Positions in the stretch and their standard errors, in samples, of those that are clear.
-    pub(super) fn settled(&mut self) -> Vec<Option<(f64, f64)>> {
+    pub(super) fn aligned(&mut self) -> Vec<Option<(f64, f64)>> {
         let noise = vec![1.0; self.length];
         let mut stds = vec![f64::INFINITY; self.sounds.len()];
         for _ in 0..ROUNDS {
@@ -75,7 +75,7 @@ impl Beginnings {
             let slopes = slope(&shape);
             let mut moves = Vec::with_capacity(cuts.len());
             for (i, cut) in cuts.iter().enumerate() {
-                let normal = Normal::of(&cut.sound, &noise, &shape, &slopes);
+                let normal = NormalEquations::of(&cut.sound, &noise, &shape, &slopes);
                 let (amplitude, moved, std) = normal.solve(self.amplitudes[i]);
                 self.amplitudes[i] = amplitude.max(0.3 * self.amplitudes[i]);
                 let is_clear = normal.clearness(amplitude) >= self.clear;

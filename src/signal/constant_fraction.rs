@@ -4,7 +4,7 @@ use crate::units::{real, samples_in};
 
 /// Where an envelope rises, in samples of its window.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Rise {
+pub(crate) struct Crossing {
     /// Position between samples.
     pub position: f64,
     /// Standard error by the noise on the slope.
@@ -21,7 +21,7 @@ const LATEST_S: f64 = 1.5e-3;
 
 /// The constant-fraction time of a sound that begins near the sample `coarse`; none if its peak is not clear of the noise.
 #[must_use]
-pub(crate) fn time(samples: &[f64], coarse: usize, sample_rate_hz: f64) -> Option<Rise> {
+pub(crate) fn time(samples: &[f64], coarse: usize, sample_rate_hz: f64) -> Option<Crossing> {
     let envelope = envelope(samples, samples_in(SMOOTHING_S, sample_rate_hz).max(1));
     let from = coarse.saturating_sub(samples_in(EARLIEST_S, sample_rate_hz));
     let to = (coarse + samples_in(LATEST_S, sample_rate_hz)).min(envelope.len());
@@ -41,7 +41,7 @@ pub(crate) fn time(samples: &[f64], coarse: usize, sample_rate_hz: f64) -> Optio
     let position = real(above - 1) + (threshold - envelope[above - 1]) / slope;
     // The smoothed noise moves the crossing by spread/slope; the sampling of the envelope by some hundredths.
     let steepness = (envelope[peak] - level) / real((peak - above + 2).max(1));
-    Some(Rise {
+    Some(Crossing {
         position,
         std: (spread / steepness).hypot(0.3),
     })

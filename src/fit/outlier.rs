@@ -2,16 +2,16 @@
 
 use super::least_squares::solve;
 use super::noise::Sizes;
-use super::posterior::likeliest;
+use super::posterior::maximum_likelihood;
 use super::state::{State, pulls, time_pull};
 use crate::statistics::{MAD_TO_STD, upper_median};
 
 /// Nats that a stray has to be worth: one bounce or time in two hundred strays, `ln((1 − q)/q)` with q = 0.005.
 const PRICE: f64 = 5.293_304_824_724_492;
 /// A wild bounce scatters ten times as much as others.
-const WILDNESS: f64 = 100.0;
+const VARIANCE_INFLATION: f64 = 100.0;
 /// A stray time is off by this share of the flights around it: another sound in its place.
-const STRAY_TIME: f64 = 0.1;
+const OUTLIER_TIME_SHARE: f64 = 0.1;
 /// What is off by less than this many standard deviations strays too little to be looked at.
 const SUSPICIOUS: f64 = 2.0;
 /// Of fewer impacts none can be told to be the one that strays.
@@ -21,7 +21,7 @@ const MOST: usize = 4;
 
 /// Numbers of the impacts that stray, counted from 0.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Strays {
+pub struct Outliers {
     /// The ball rebounded otherwise than usual.
     pub bounces: Vec<usize>,
     /// The time is not that of the impact.
@@ -32,42 +32,42 @@ pub struct Strays {
 ///
 /// A stray is believed where the data are likelier with it than without by more than strays are rarer than others, each
 /// at its likeliest scatter.
-pub(super) fn find(state: &mut State<'_>) -> Option<Strays> {
+pub(super) fn find(state: &mut State<'_>) -> Option<Outliers> {
     let impacts = state.time_variances.len();
-    let mut strays = Strays {
-        times: crowd(state)?,
-        ..Strays::default()
+    let mut outliers = Outliers {
+        times: masked_outliers(state)?,
+        ..Outliers::default()
     };
-    while impacts >= FEWEST && strays.bounces.len() + strays.times.len() < impacts / MOST {
+    while impacts >= FEWEST && outliers.bounces.len() + outliers.times.len() < impacts / MOST {
         let Some((now, bounce, time)) = suspects(state) else {
             break;
         };
         let mut with_bounce = state.clone();
-        with_bounce.wildness[bounce] = WILDNESS;
+        with_bounce.variance_inflation[bounce] = VARIANCE_INFLATION;
         let mut with_time = state.clone();
-        with_time.time_variances[time] += (STRAY_TIME * state.shorter_flight(time)).powi(2);
+        with_time.time_variances[time] += (OUTLIER_TIME_SHARE * state.shorter_flight(time)).powi(2);
         let (by_bounce, by_time) = (likelihood(&with_bounce)?, likelihood(&with_time)?);
         if by_bounce.max(by_time) - now < PRICE {
             break;
         }
         if by_bounce >= by_time {
-            strays.bounces.push(bounce + 1);
+            outliers.bounces.push(bounce + 1);
             *state = with_bounce;
         } else {
-            strays.times.push(time);
+            outliers.times.push(time);
             *state = with_time;
         }
-        state.settle()?;
+        state.converge()?;
     }
-    strays.bounces.sort_unstable();
-    strays.times.sort_unstable();
-    Some(strays)
+    outliers.bounces.sort_unstable();
+    outliers.times.sort_unstable();
+    Some(outliers)
 }
 
 /// Times that stray together, as at the end of a drop where nothing is clear any more: many strays hide one another, for
 /// the scatter of all bounces grows by them. So they are sought where bounces scatter as half of them do, the farthest
 /// first, and tried as a whole, at the price of each.
-fn crowd(state: &mut State<'_>) -> Option<Vec<usize>> {
+fn masked_outliers(state: &mut State<'_>) -> Option<Vec<usize>> {
     let impacts = state.time_variances.len();
     let bounces = state.bounces()?;
     let median = |values: &[f64]| upper_median(values.iter().copied()).unwrap_or(0.0);
@@ -85,7 +85,8 @@ fn crowd(state: &mut State<'_>) -> Option<Vec<usize>> {
     let without = |far: &[usize]| {
         let mut without = state.clone();
         for &time in far {
-            without.time_variances[time] += (STRAY_TIME * state.shorter_flight(time)).powi(2);
+            without.time_variances[time] +=
+                (OUTLIER_TIME_SHARE * state.shorter_flight(time)).powi(2);
         }
         Some((likelihood(&without)?, without))
     };
@@ -102,7 +103,7 @@ fn crowd(state: &mut State<'_>) -> Option<Vec<usize>> {
         return Some(Vec::new());
     }
     *state = without;
-    state.settle()?;
+    state.converge()?;
     Some(kept)
 }
 
@@ -149,12 +150,12 @@ const FAR: f64 = 5.0;
 fn suspects(state: &State<'_>) -> Option<(f64, usize, usize)> {
     let bounces = state.bounces()?;
     let noise = state.noise(&bounces);
-    let (sizes, solution) = likeliest(&bounces, &noise, &state.priors())?;
+    let (sizes, solution) = maximum_likelihood(&bounces, &noise, &state.priors())?;
     let pulls = pulls(&bounces, &noise, sizes, &solution)?;
     let farthest = |off: &[f64]| (0..off.len()).max_by(|&a, &b| off[a].total_cmp(&off[b]));
     let by_bounce: Vec<f64> = pulls
         .iter()
-        .zip(&state.wildness)
+        .zip(&state.variance_inflation)
         .map(|(p, w)| {
             if *w > 1.0 {
                 0.0
@@ -178,7 +179,7 @@ fn likelihood(state: &State<'_>) -> Option<f64> {
     let bounces = state.bounces()?;
     let noise = state.noise(&bounces);
     Some(
-        likeliest(&bounces, &noise, &state.priors())?
+        maximum_likelihood(&bounces, &noise, &state.priors())?
             .1
             .ln_likelihood,
     )

@@ -10,11 +10,11 @@ const RIVAL: f64 = 0.5;
 
 /// A place where a shape fits.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Fit {
+pub(super) struct Match {
     pub position: f64,
     pub amplitude: f64,
     /// Spread over all places that fit, each by its likelihood.
-    pub doubt: f64,
+    pub ambiguity: f64,
 }
 
 /// Least energy of a shape where much of it was not recorded, as a share of the greatest.
@@ -42,12 +42,12 @@ pub(super) struct Search {
 /// # Formula
 /// `L(p) = (Σ w·x·s(· − p))²/(2 Σ w·s²(· − p))/scale − (p − prior)²/2σ²`: what a shape of positive amplitude explains,
 /// where what it leaves has the variance `scale`, at least 1, times the overdispersion.
-pub(super) fn best(
+pub(super) fn best_match(
     correlator: &mut Correlator,
     window: Window<'_>,
     shape: &[f64],
     search: Search,
-) -> Option<Fit> {
+) -> Option<Match> {
     let (samples, noise, prior) = (window.sound, window.noise, search.prior);
     let weighted: Vec<f64> = samples.iter().zip(noise).map(|(x, n)| x / n).collect();
     let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
@@ -96,10 +96,10 @@ pub(super) fn best(
     let shares = peaks.iter().map(|p| ((p.2 - likelihood).exp(), p.0));
     let total: f64 = shares.clone().map(|(share, _)| share).sum();
     let spread = shares.map(|(share, p)| share * (p - position).powi(2));
-    Some(Fit {
+    Some(Match {
         position,
         amplitude,
-        doubt: (spread.sum::<f64>() / total).sqrt(),
+        ambiguity: (spread.sum::<f64>() / total).sqrt(),
     })
 }
 
@@ -156,17 +156,17 @@ mod tests {
                 reach: 100,
                 overdispersion: 1.0,
             };
-            let fit = best(&mut Correlator::default(), window, &shape, search).unwrap();
+            let found = best_match(&mut Correlator::default(), window, &shape, search).unwrap();
             assert!(
-                (fit.position - position).abs() < 0.05,
+                (found.position - position).abs() < 0.05,
                 "{} {position}",
-                fit.position
+                found.position
             );
-            assert!((fit.amplitude / amplitude - 1.0).abs() < 0.01);
+            assert!((found.amplitude / amplitude - 1.0).abs() < 0.01);
             assert!(
-                (fit.position - place).abs() < 0.3,
+                (found.position - place).abs() < 0.3,
                 "{} {place}",
-                fit.position
+                found.position
             );
         }
     }

@@ -1,7 +1,7 @@
 //! Standard errors that know that neighbouring samples err alike.
 
-use super::normal::Normal;
-use super::settle::Joint;
+use super::alternate::Joint;
+use super::normal_equations::NormalEquations;
 use crate::signal::interpolate::slope_gain;
 use crate::signal::template::average::sums;
 use crate::signal::template::{MOST_SHARE, Sample};
@@ -25,27 +25,27 @@ const FAINTEST: f64 = 3.0;
 /// ```
 /// Its ratio to the variance of independent samples varies slowly along the drop and is averaged over neighbours. What
 /// the same pulls make of the noise just before each impact, above what they would make of white noise, is added: hum
-/// and rumble that are left over last longer than a block. All is divided by the [share](known_share) of the slope that is
+/// and rumble that are left over last longer than a block. All is divided by the [share](attenuation) of the slope that is
 /// known.
 pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
     let samples = heads(joint);
-    let judged = judged(joint, &samples);
+    let error_pairs = error_pairs(joint, &samples);
     let excess = noise_excess(joint, &samples);
     let variances = mean_variances(&samples);
     let std = |i: usize| {
-        let (independent, _) = judged[i]?;
+        let (independent, _) = error_pairs[i]?;
         let (shape, slopes) = (joint.template.shape(i), joint.template.slopes(i));
-        let known = known_share(&samples[i], shape, slopes, &variances);
-        Some(independent / known * (likeness(&judged, i) + excess).sqrt())
+        let known = attenuation(&samples[i], shape, slopes, &variances);
+        Some(independent / known * (overdispersion(&error_pairs, i) + excess).sqrt())
     };
-    (0..judged.len()).map(std).collect()
+    (0..error_pairs.len()).map(std).collect()
 }
 
 /// How many times more than independent samples those of each impact move its match, in variance; at least 1.
 pub(super) fn overdispersions(joint: &Joint<'_>) -> Vec<f64> {
-    let judged = judged(joint, &heads(joint));
-    let likeness = |i: usize| likeness(&judged, i).max(1.0);
-    (0..judged.len()).map(likeness).collect()
+    let error_pairs = error_pairs(joint, &heads(joint));
+    let overdispersion = |i: usize| overdispersion(&error_pairs, i).max(1.0);
+    (0..error_pairs.len()).map(overdispersion).collect()
 }
 
 fn heads(joint: &Joint<'_>) -> Vec<Sample> {
@@ -56,7 +56,7 @@ fn heads(joint: &Joint<'_>) -> Vec<Sample> {
 }
 
 /// The standard errors of all impacts by independent samples and by blocks.
-fn judged(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
+fn error_pairs(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
     let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let template = &joint.template;
     let each = samples.iter().enumerate();
@@ -65,9 +65,12 @@ fn judged(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
 }
 
 /// The mean ratio of both variances among an impact and its neighbours; 1 if none is known.
-fn likeness(judged: &[Option<(f64, f64)>], i: usize) -> f64 {
-    let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(judged.len());
-    let ratios = judged[near].iter().flatten().map(|(a, b)| (b / a).powi(2));
+fn overdispersion(error_pairs: &[Option<(f64, f64)>], i: usize) -> f64 {
+    let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(error_pairs.len());
+    let ratios = error_pairs[near]
+        .iter()
+        .flatten()
+        .map(|(a, b)| (b / a).powi(2));
     let (sum, count) = ratios.fold((0.0, 0), |(s, n), r| (s + r, n + 1));
     if count == 0 { 1.0 } else { sum / real(count) }
 }
@@ -83,7 +86,7 @@ fn noise_excess(joint: &Joint<'_>, samples: &[Sample]) -> f64 {
         let slopes = joint.template.slopes(i);
         let shape = joint.template.shape(i);
         let alone = vec![1.0; head];
-        let normal = Normal::of(&sample.sound, &alone, shape, slopes);
+        let normal = NormalEquations::of(&sample.sound, &alone, shape, slopes);
         let pull = |t: usize| normal.pull(1.0, shape[t], slopes[t], 1.0);
         let pulls: Vec<f64> = (0..head).map(pull).collect();
         for stretch in 0..STRETCHES {
@@ -130,7 +133,7 @@ fn mean_variances(samples: &[Sample]) -> Vec<f64> {
 }
 
 /// Least share that is told: below it, it is nothing but the scatter of the noise.
-const LEAST_KNOWN: f64 = 0.02;
+const LEAST_ATTENUATION: f64 = 0.02;
 
 /// The share of a sound's slope, in what it tells of time, that is not the template's own noise: by so much less than it
 /// seems does a match follow the impact.
@@ -138,19 +141,19 @@ const LEAST_KNOWN: f64 = 0.02;
 /// # Formula
 /// `1 − Σ w·G·v / (Σ w·s′² − (Σ w·s·s′)²/Σ w·s²)`, w one over the noise, v the variance of a
 /// template of one component at each sample, `G·v` that of its slope.
-fn known_share(sample: &Sample, shape: &[f64], slopes: &[f64], variances: &[f64]) -> f64 {
-    let normal = Normal::of(&sample.sound, &sample.noise, shape, slopes);
+fn attenuation(sample: &Sample, shape: &[f64], slopes: &[f64], variances: &[f64]) -> f64 {
+    let normal = NormalEquations::of(&sample.sound, &sample.noise, shape, slopes);
     let noise: f64 = variances
         .iter()
         .zip(&sample.noise)
         .map(|(v, n)| v / n)
         .sum();
-    (1.0 - slope_gain() * noise / normal.slope_information()).max(LEAST_KNOWN)
+    (1.0 - slope_gain() * noise / normal.slope_information()).max(LEAST_ATTENUATION)
 }
 
 /// Standard error of one position by independent samples and by blocks.
 fn errors(sample: &Sample, shape: &[f64], slopes: &[f64], weights: &[f64]) -> Option<(f64, f64)> {
-    let normal = Normal::of(&sample.sound, &sample.noise, shape, slopes);
+    let normal = NormalEquations::of(&sample.sound, &sample.noise, shape, slopes);
     let (amplitude, _, independent) = normal.solve(sample.amplitude);
     if !independent.is_finite() || normal.clearness(amplitude) < FAINTEST {
         return None;

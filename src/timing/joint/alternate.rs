@@ -1,9 +1,9 @@
 //! Times and template in turn.
 
 use super::align::Aligned;
-use super::normal::Normal;
-use super::place::{Search, Window, best};
-use super::spread::overdispersions;
+use super::matched_search::{Search, Window, best_match};
+use super::normal_equations::NormalEquations;
+use super::standard_error::overdispersions;
 use super::start::Started;
 use super::{Place, Prior};
 use crate::signal::correlate::Correlator;
@@ -27,19 +27,19 @@ pub(super) struct Joint<'a> {
     pub places: Vec<Place>,
     pub template: Template,
     /// Power of what nothing explains around each impact, where the last round saw it stand out: knocks, voices, a hand.
-    pub knocks: Vec<Vec<f64>>,
+    pub interference: Vec<Vec<f64>>,
     correlator: Correlator,
 }
 
 impl<'a> Joint<'a> {
-    /// The impacts as they are aligned; where they may differ by their slowness, the template has so many components.
+    /// The impacts as they are aligned; where they may differ by their contact stretch, the template has so many components.
     pub(super) fn of(started: &'a Started, aligned: Aligned, components: usize) -> Self {
         let mut template = aligned.template;
         let none = vec![0.0; template.len()];
         template.components.resize(components, none);
         Self {
             started,
-            knocks: vec![Vec::new(); aligned.places.len()],
+            interference: vec![Vec::new(); aligned.places.len()],
             priors: aligned.priors,
             places: aligned.places,
             template,
@@ -48,7 +48,7 @@ impl<'a> Joint<'a> {
     }
 
     /// Settles times and template in turn, so many rounds.
-    pub(super) fn settle(&mut self, rounds: usize) {
+    pub(super) fn alternate(&mut self, rounds: usize) {
         for _ in 0..rounds {
             let heads: Vec<Sample> = (0..self.places.len()).map(|i| self.step(i)).collect();
             self.learn_heads(&heads);
@@ -57,9 +57,9 @@ impl<'a> Joint<'a> {
 
     /// The usual rounds: first those in which impacts may jump. Gives the doubt of each, which is the standard error by other
     /// places that match nearly as well.
-    pub(super) fn settle_whole(&mut self) -> Vec<f64> {
+    pub(super) fn search_and_alternate(&mut self) -> Vec<f64> {
         let count = self.places.len();
-        let mut doubts = vec![0.0; count];
+        let mut ambiguities = vec![0.0; count];
         for round in 0..SEARCHES {
             // Likelihoods of places are only as far apart as samples err independently; nothing is known of that yet at first.
             let overdispersions = match round {
@@ -67,8 +67,8 @@ impl<'a> Joint<'a> {
                 _ => overdispersions(self),
             };
             let heads = (0..count).map(|i| {
-                if let Some(doubt) = self.search(i, overdispersions[i]) {
-                    doubts[i] = doubt;
+                if let Some(ambiguity) = self.search(i, overdispersions[i]) {
+                    ambiguities[i] = ambiguity;
                 }
                 self.step(i)
             });
@@ -76,21 +76,24 @@ impl<'a> Joint<'a> {
             self.learn_heads(&heads);
         }
         self.learn_whole();
-        self.settle(ROUNDS);
-        doubts
+        self.alternate(ROUNDS);
+        ambiguities
     }
 
     /// Learns the beginning of the template, and what it does not explain.
     fn learn_heads(&mut self, heads: &[Sample]) {
         self.learn(heads);
-        let knocks = heads.iter().enumerate().map(|(i, h)| self.knocks_of(i, h));
-        self.knocks = knocks.collect();
+        let interference = heads
+            .iter()
+            .enumerate()
+            .map(|(i, h)| self.interference_of(i, h));
+        self.interference = interference.collect();
     }
 
     fn learn(&mut self, samples: &[Sample]) {
         let smoothing = samples_in(MISFIT_S, self.started.rate);
         self.template
-            .learn(samples, &self.started.slownesses, smoothing);
+            .learn(samples, &self.started.contact_stretches, smoothing);
     }
 
     /// Learns the whole template from those impacts that sound alone, or from all if they are too few.
@@ -130,12 +133,12 @@ impl<'a> Joint<'a> {
             overdispersion,
         };
         let shape = &self.template.shape(i)[..head];
-        let fit = best(&mut self.correlator, window, shape, search)?;
+        let found = best_match(&mut self.correlator, window, shape, search)?;
         self.places[i] = Place {
-            position: begin + fit.position + before,
-            amplitude: fit.amplitude,
+            position: begin + found.position + before,
+            amplitude: found.amplitude,
         };
-        Some(fit.doubt)
+        Some(found.ambiguity)
     }
 
     /// One step towards the best amplitude and time of an impact, by weighted least squares; gives its sound as it then
@@ -148,9 +151,9 @@ impl<'a> Joint<'a> {
         let begin = self.begin(i) - real(KERNEL);
         let mut wide = shifted(&self.started.sound, begin, head + 2 * KERNEL);
         self.take_out_others(i, begin, &mut wide);
-        let noise = self.noise_and_knocks(i, head);
+        let noise = self.noise_and_interference(i, head);
         let (shape, slopes) = (self.template.shape(i), self.template.slopes(i));
-        let normal = Normal::of(&wide[KERNEL..KERNEL + head], &noise, shape, slopes);
+        let normal = NormalEquations::of(&wide[KERNEL..KERNEL + head], &noise, shape, slopes);
         let place = &mut self.places[i];
         let (amplitude, moved, _) = normal.solve(place.amplitude);
         place.amplitude = amplitude.max(LEAST_AMPLITUDE * place.amplitude);
@@ -158,7 +161,7 @@ impl<'a> Joint<'a> {
         place.position += moved;
         Sample {
             amplitude: place.amplitude,
-            slowness: self.started.slownesses[i],
+            contact_stretch: self.started.contact_stretches[i],
             sound: shifted(&wide, real(KERNEL) + moved, head),
             noise,
         }

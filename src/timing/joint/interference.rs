@@ -1,21 +1,21 @@
 //! What else is heard where an impact is: the other impacts, what single impacts differ by, and what nothing explains.
 
-use super::settle::Joint;
+use super::alternate::Joint;
 use crate::signal::interpolate::{KERNEL, shifted};
 use crate::signal::smooth::smoothed;
 use crate::signal::template::Sample;
 use crate::units::{real, samples_in, whole};
 
 /// What nothing explains is judged over this time either way, in seconds, and stands out by this factor.
-const KNOCK_S: f64 = 1e-3;
-const KNOCK: f64 = 4.0;
+const INTERFERENCE_S: f64 = 1e-3;
+const INTERFERENCE_RATIO: f64 = 4.0;
 /// Variance of what was not recorded.
 const UNKNOWN: f64 = 1e30;
 
 impl Joint<'_> {
     /// The power that nothing explains in the sound of an impact, where it stands out.
-    pub(super) fn knocks_of(&self, i: usize, head: &Sample) -> Vec<f64> {
-        let reach = samples_in(KNOCK_S, self.started.rate);
+    pub(super) fn interference_of(&self, i: usize, head: &Sample) -> Vec<f64> {
+        let reach = samples_in(INTERFERENCE_S, self.started.rate);
         let shape = self.template.shape(i);
         let left = head
             .sound
@@ -23,13 +23,13 @@ impl Joint<'_> {
             .zip(shape)
             .map(|(x, s)| (x - head.amplitude * s).powi(2));
         let known = smoothed(&self.noise(self.begin(i), head.sound.len(), None), reach);
-        let mut knocks = smoothed(&left.collect::<Vec<f64>>(), reach);
-        for (knock, known) in knocks.iter_mut().zip(known) {
-            if *knock < KNOCK * known {
-                *knock = 0.0;
+        let mut interference = smoothed(&left.collect::<Vec<f64>>(), reach);
+        for (power, known) in interference.iter_mut().zip(known) {
+            if *power < INTERFERENCE_RATIO * known {
+                *power = 0.0;
             }
         }
-        knocks
+        interference
     }
 
     /// Where the window of an impact begins, in samples of the stretch.
@@ -112,9 +112,9 @@ impl Joint<'_> {
     }
 
     /// Noise at the samples of an impact, with what nothing explains.
-    pub(super) fn noise_and_knocks(&self, i: usize, length: usize) -> Vec<f64> {
+    pub(super) fn noise_and_interference(&self, i: usize, length: usize) -> Vec<f64> {
         let mut noise = self.noise(self.begin(i), length, None);
-        for (n, k) in noise.iter_mut().zip(&self.knocks[i]) {
+        for (n, k) in noise.iter_mut().zip(&self.interference[i]) {
             *n += k;
         }
         noise
@@ -127,9 +127,9 @@ impl Joint<'_> {
         self.take_out_others(i, begin, &mut sound);
         Sample {
             amplitude: self.places[i].amplitude,
-            slowness: self.started.slownesses[i],
+            contact_stretch: self.started.contact_stretches[i],
             sound,
-            noise: self.noise_and_knocks(i, length),
+            noise: self.noise_and_interference(i, length),
         }
     }
 }

@@ -10,7 +10,7 @@ pub(super) const FALLING_SHARE: f64 = 0.75;
 ///
 /// What is nearest counts most in A, so it is greatest where a sound begins and not anywhere before it. The recording's
 /// first instants have no past: nothing can be said to have risen, and the ratio is 0.
-pub(super) fn rises(energies: &[f32], after: usize, before: usize, floor: f32) -> Vec<f32> {
+pub(super) fn mean_ratios(energies: &[f32], after: usize, before: usize, floor: f32) -> Vec<f32> {
     let mut ratios = falling_means(energies, after);
     let hops = ratios.len();
     ratios[..before.min(hops)].fill(0.0);
@@ -73,7 +73,7 @@ mod tests {
             let floor = 0.1;
             let (falling, ratios) = (
                 falling_means(&energies, window),
-                rises(&energies, window, window, floor),
+                mean_ratios(&energies, window, window, floor),
             );
             for k in 0..200 {
                 let weights: f64 = (1..=window).map(real).sum();
