@@ -1,0 +1,85 @@
+//! Rounds of linear fits on times of a known ball.
+
+use super::*;
+use crate::fit::kind::ModelKind;
+use crate::fit::model_selection::{Choice, Inputs, select};
+use crate::fit::posterior::Posterior;
+use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
+use crate::random::SplitMix64;
+
+/// Touches of a linear ball with its weight, each off by a random error of this size, which is what they state.
+fn touches(e: f64, contact_s: f64, count: usize, std_s: f64) -> Vec<Impact> {
+    let ball = Oscillator::from_contact(Restitution::new(e).unwrap(), contact_s).unwrap();
+    let contact = LinearContact::new(ball, 9.81, ReleaseRule::ZeroDisplacement).unwrap();
+    let mut rng = SplitMix64::new(3);
+    let (mut time_s, mut speed) = (0.5, 2.0);
+    let mut touches = Vec::new();
+    for _ in 0..count {
+        touches.push(Impact::heard(time_s + std_s * rng.normal(), std_s));
+        let Rebound::Leaves(leaving) = contact.rebound(speed).unwrap() else {
+            panic!("it leaves");
+        };
+        speed *= leaving.restitution.value();
+        time_s += leaving.contact_time_s + 2.0 * speed / 9.81;
+    }
+    touches
+}
+
+#[test]
+fn a_linear_ball_is_told_from_a_contact_by_exact_times() {
+    for std_s in [1e-6, 1e-7] {
+        let touches = touches(0.93, 80e-6, 65, std_s);
+        let selection = select(&touches, &Inputs::default(), Choice::Auto).unwrap();
+        let gain = |model: ModelKind| {
+            let mut candidates = selection.candidates.iter();
+            candidates.find(|c| c.model == model).unwrap().gain_nats
+        };
+        let (linear, contact) = (gain(ModelKind::Linear), gain(ModelKind::Contact));
+        assert!(linear >= contact, "{:?}", selection.candidates);
+        let ln_e = selection.fit.ln_restitution.value + selection.fit.ln_fast_gain;
+        let off = ln_e - 0.93_f64.ln();
+        let std = selection.fit.ln_restitution.std.unwrap();
+        assert!(off.abs() < 2.0 * std, "{off:e} of {std:e}");
+    }
+}
+
+#[test]
+fn twice_the_rounds_and_a_tenth_of_the_move_change_no_evidence() {
+    let known = |value, std| Some(Known { value, std });
+    let (contact, drag) = (known(2e-3, 6e-3), known(1.0, 2.0));
+    let terms = |contact, drag, law| Terms {
+        contact,
+        drag,
+        speed: None,
+        law,
+    };
+    let mut compared = 0;
+    for (e, contact_s, count, std_s) in [
+        (0.93, 80e-6, 65, 1e-6),
+        (0.9, 1e-3, 40, 1e-6),
+        (0.9, 1e-3, 40, 1e-4),
+        (0.8, 3e-3, 18, 1e-5),
+    ] {
+        let touches = touches(e, contact_s, count, std_s);
+        for terms in [
+            terms(contact, drag, ImpactLaw::Alike),
+            terms(contact, None, ImpactLaw::Linear),
+            terms(None, drag, ImpactLaw::Viscoelastic),
+        ] {
+            let evidence = |rest: f64, rounds: usize| {
+                let mut state = State::new(&touches, &terms);
+                state.converge_to(rest, rounds)?;
+                let bounces = state.bounces()?;
+                let noise = state.noise(&bounces);
+                let posterior = Posterior::over_noise(&bounces, &noise, &state.priors())?;
+                Some(posterior.ln_evidence)
+            };
+            let usual = evidence(CONVERGED, MOST_ROUNDS);
+            let longer = evidence(0.1 * CONVERGED, 2 * MOST_ROUNDS);
+            let moved = usual.zip(longer).map(|(a, b)| (a - b).abs());
+            assert!(moved.is_some_and(|m| m < 0.1), "{usual:?} {longer:?}");
+            compared += 1;
+        }
+    }
+    assert_eq!(compared, 12);
+}

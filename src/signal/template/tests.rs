@@ -1,0 +1,71 @@
+//! Templates learnt from made sounds.
+
+use super::*;
+use crate::random::SplitMix64;
+
+#[test]
+fn components_and_misfit_are_those_that_the_sounds_were_made_of() {
+    let mut rng = SplitMix64::new(8);
+    let shapes = [|t: f64| (0.3 * t).sin(), |t: f64| 0.2 * (0.5 * t).cos()];
+    let impacts: Vec<Sample> = (0..400)
+        .map(|i| {
+            let (amplitude, contact_stretch) = (50.0 + real(i % 7), 0.01 * real(i % 100) - 0.5);
+            let sound = (0..60).map(|t| {
+                let shape = shapes[0](real(t)) + contact_stretch * shapes[1](real(t));
+                // Impacts differ by 2 % from sample 30 on.
+                let differs = if t < 30 { 0.0 } else { 0.02 * rng.normal() };
+                amplitude * (shape + differs) + rng.normal()
+            });
+            Sample {
+                amplitude,
+                contact_stretch,
+                sound: sound.collect(),
+                noise: vec![1.0; 60],
+            }
+        })
+        .collect();
+    let mut template = Template::new(vec![0.0; 60], vec![0.0; 60], 10);
+    template.components.push(vec![0.0; 60]);
+    let contact_stretches: Vec<f64> = impacts.iter().map(|s| s.contact_stretch).collect();
+    template.learn(&impacts, &contact_stretches, 2);
+    for t in 0..60 {
+        for (component, shape) in template.components.iter().zip(shapes) {
+            let off = component[t] - shape(real(t));
+            assert!(off.abs() < 0.02, "sample {t}: off by {off}");
+        }
+    }
+    assert!(template.misfit[..25].iter().all(|&v| v < 1e-4));
+    let late = template.misfit[35..].iter().sum::<f64>() / 25.0;
+    assert!((late / 4e-4 - 1.0).abs() < 0.15, "{late}");
+}
+
+#[test]
+fn heads_learnt_again_change_each_sound_and_its_derivative_as_learning_all_does() {
+    let mut rng = SplitMix64::new(9);
+    let contact_stretches: Vec<f64> = (0..12).map(|i| 0.1 * real(i) - 0.5).collect();
+    let mut sounds = |length: usize| -> Vec<Sample> {
+        let sample = |&contact_stretch: &f64| Sample {
+            amplitude: 20.0 + contact_stretch,
+            contact_stretch,
+            sound: (0..length).map(|_| 20.0 * rng.normal()).collect(),
+            noise: (0..length).map(|_| 1.0 + rng.normal().powi(2)).collect(),
+        };
+        contact_stretches.iter().map(sample).collect()
+    };
+    let mut template = Template::new(vec![0.0; 90], vec![0.0; 90], 10);
+    template.components.resize(3, vec![0.0; 90]);
+    for length in [90, template.head, template.head] {
+        template.learn(&sounds(length.min(90)), &contact_stretches, 2);
+        let head = template.head;
+        for (i, u) in contact_stretches.iter().enumerate() {
+            let mut shape = vec![0.0; 90];
+            combine(&template.components, *u, &mut shape);
+            assert_eq!(template.shape(i), shape);
+            let slopes = slope(&shape[..(head + KERNEL).min(90)]);
+            assert_eq!(template.slopes(i).len(), head);
+            for (fast, slow) in template.slopes(i).iter().zip(slopes) {
+                assert!((fast - slow).abs() < 1e-10, "impact {i}: {fast} vs {slow}");
+            }
+        }
+    }
+}
