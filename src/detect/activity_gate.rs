@@ -1,4 +1,5 @@
-//! A cheap gate over everything: most of a long recording is nothing but its own noise.
+//! An activity gate: a cheap test of short-time energy that passes on the units in which something rises. Most of a long
+//! recording is background noise.
 
 use crate::units::{narrow, real, samples_in};
 
@@ -7,9 +8,9 @@ const FRAME_S: f64 = 1e-3;
 /// Length of the units that are judged as a whole, in seconds: short against a drop, so that little silence is kept
 /// with it, and long against a frame.
 const UNIT_S: f64 = 0.25;
-/// Frames that say what is usual.
+/// Frames before a frame whose mean is its usual energy.
 const USUAL: usize = 8;
-/// A frame with this many times the usual energy is a reason to look closer. Of the 24 independent values that a frame
+/// A frame opens the gate with this many times the usual energy. Derived: of the 24 independent values that a frame
 /// of white noise at 48 kHz has at least, one in 10⁹ sums to that; of the 16 at the lowest rates, one in 10⁷.
 const RISE: f32 = 4.0;
 /// Samples that are averaged for the low band.
@@ -19,10 +20,10 @@ const LOW_FRAMES: usize = 10;
 /// Levels below this mean square are digital silence.
 const SILENCE: f32 = 1e-14;
 
-/// Listens for frames that rise out of those before them: in the sound itself, in its treble (the differences of
-/// pairs), or in its bass (the means of sixteen).
+/// A gate that opens for frames that rise out of those before them: in the sound itself, in its treble (the differences
+/// of pairs), or in its bass (the means of sixteen).
 ///
-/// Before the first sample there is silence, so the first sound of a recording always rises.
+/// The past before the first sample counts as silence, so the first sound of a recording always rises.
 #[derive(Debug, Clone)]
 pub struct ActivityGate {
     frame: usize,
@@ -61,7 +62,7 @@ impl ActivityGate {
         let scale = 1.0 / narrow(real(self.frame));
         // The sums of sixteen, not their means, and for each group of sixteen one.
         let bass_scale = 1.0 / narrow(real(self.frame * LOW_FRAMES * LOW));
-        // All three have to be told what was heard, whatever the others say.
+        // Each of the three takes in the unit, whatever the others say.
         let rises = [
             self.all.rises(scale),
             self.high.rises(scale),

@@ -1,8 +1,7 @@
-//! Events by the sound of this ball: what the energy no longer shows, because the last impact still rings or the
-//! echo comes back, the shape of an impact does.
+//! Events by a matched filter: impacts that the ring or the echo of another hides in the energy are found by their shape.
 //!
-//! In the whitened recording the best match of the drop's template, ring and echo included, is sought, taken out whole, and the
-//! next best match sought in what is left, until nothing stands out of the noise.
+//! The best match of the drop's template, ring and echo included, is found in the whitened recording and subtracted whole,
+//! then the next best match in the residue, until none stands out of the noise.
 
 use super::pursuit::{Pattern, Residue};
 use crate::event::Event;
@@ -11,24 +10,25 @@ use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
 use crate::units::{real, samples_in, whole};
 
-/// A sound is taken out over this many seconds at most: a ring, an echo from a wall some metres away.
+/// Longest part of the template that is subtracted, in seconds: a ring, an echo from a wall some metres away.
 const LONGEST_S: f64 = 45e-3;
-/// What is matched begins this long before the onset, in seconds, …
+/// The matched part begins this long before the onset, in seconds, …
 const BEFORE_S: f64 = 0.4e-3;
 /// … holds this share of the energy of the sound …
 const MATCHED_SHARE: f64 = 0.85;
 /// … within this range of lengths, in seconds: longer ones would reach into the next impact …
 const MATCHED_S: (f64, f64) = (1.5e-3, 6e-3);
-/// … but where the shortest flight known is long, up to this share of it: a thud of 100 Hz is not known by half a period.
+/// … or, where the shortest flight known is long, up to this share of it: a thud of 100 Hz needs more than half a period.
 const MATCHED_FLIGHT: f64 = 0.2;
 const MATCHED_LONGEST_S: f64 = 20e-3;
 /// Weakest match, in standard deviations of the noise.
 const WEAKEST: f64 = 3.5;
-/// Two matches are at least this far apart, in seconds: what is left of a sound that is taken out is no other.
+/// Two matches are at least this far apart, in seconds: nearer ones are the residue of one sound.
 const APART_S: f64 = 0.5e-3;
 /// Matches taken out for each second of the region: far more than a ball has impacts.
 const PER_SECOND: f64 = 300.0;
-/// What neighbours that overlap pull a match by: a standard deviation in seconds, and as a share of 1/β of what is matched.
+/// Least jitter of a match, by neighbours that overlap it: a standard deviation in seconds, and as a share of 1/β of the
+/// matched part.
 const LEAST_JITTER_S: f64 = 0.05e-3;
 const LEAST_JITTER_SHARE: f64 = 0.3;
 

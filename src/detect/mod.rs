@@ -1,7 +1,8 @@
-//! Where something struck: [events](crate::event) from samples and a rate. Knows nothing of balls.
+//! Detection of [events](crate::event), moments at which something struck, in samples at a rate. Knows nothing of balls.
 //!
-//! [`activity_gate`] searches everything for the little in which something happens. A [filter bank](crate::signal::filterbank) splits that
-//! into octaves, [`change_point`] measures how surely the energy went up at each moment, [`peaks`] picks the moments.
+//! [`activity_gate`] passes on the parts of a recording in which something happens. A
+//! [filter bank](crate::signal::filterbank) splits those into octaves, [`change_point`] measures the evidence that the
+//! energy went up at each moment, [`peaks`] picks the moments.
 
 pub mod activity_gate;
 pub mod change_point;
@@ -17,19 +18,20 @@ use crate::signal::filterbank::Filterbank;
 use crate::signal::sound::Sound;
 use crate::units::{real, samples_in};
 
-/// Time grid of the energy, in seconds; a bank rounds it to a power of two of samples. It is a few times shorter than the
-/// shortest contact, and still cheap.
+/// Time grid of the energy, in seconds; a bank rounds it to a power of two of samples. Convention: a few times shorter than
+/// the shortest contact, and still cheap.
 pub const HOP_S: f64 = 0.25e-3;
-/// Lowest frequency listened to, in Hz: the octave above holds most of a basketball's thud.
+/// Lowest frequency listened to, in Hz. Convention: the octave above holds most of a basketball's thud.
 const LOWEST_HZ: f64 = 40.0;
-/// Two events are at least this far apart, in seconds: a quarter of the shortest audible flight.
+/// Two events are at least this far apart, in seconds. Convention: a quarter of the shortest audible flight.
 const SEPARATION_S: f64 = 1e-3;
 /// Weakest event kept, in nats: white noise offers a hundred of these a second, and the sequence needs weak ones.
 const WEAKEST: f64 = 3.5;
 /// Length of the stretches whose ordinary level is learnt together, in seconds: long against a flight, short against a
 /// change of scene.
 const SEGMENT_S: f64 = 8.0;
-/// Margin on both sides of a segment that is computed but not reported, in seconds: the reach of the longest filters.
+/// Margin on both sides of a segment that is computed but not reported, in seconds. Derived: the reach of the longest
+/// filters.
 const MARGIN_S: f64 = 0.25;
 
 /// Finds events at one rate.
@@ -108,7 +110,7 @@ impl Detector {
     }
 }
 
-/// How many of its strongest events speak for a channel.
+/// Strongest events of a channel that its clarity sums.
 const SPEAKERS: usize = 100;
 
 /// How clearly a recording's impacts stand out: the sum of its hundred strongest events, in nats.

@@ -9,8 +9,8 @@ pub struct Peak {
     pub height: f64,
 }
 
-/// A peak rises by at least this share of its height above the lowest value between it and any higher one: what does
-/// not is the slope of that one.
+/// Least prominence of a peak, as a share of its height: how far it rises above the lowest value between it and any higher
+/// one. Smaller maxima are ripples on the slope of that one.
 const PROMINENCE: f32 = 0.5;
 
 /// Maxima of at least `lowest` that no higher value is nearer to than `separation` indices and that stand out by half

@@ -26,7 +26,7 @@ impl Pattern {
     }
 }
 
-/// The match of a stretch of sound against the pattern at every sample, as far as it is not explained yet.
+/// The match of a stretch of sound with the pattern at every sample, less the sounds found so far.
 ///
 /// Sounds are taken out of the match and not of the sound: taking `a·s` out at p changes the match at k by
 /// `a·R(k − p)`, where R is the match of the pattern with itself. All in standard deviations of the noise: an `f32` holds

@@ -1,18 +1,18 @@
-//! The noise that a recorder makes by rounding to its own steps.
+//! Quantization noise: a recorder rounds samples to steps of its own.
 
 use crate::signal::filterbank::Filterbank;
 
-/// The step of a recording of 8 bits; what differs by more (clicks in digital silence) was not rounded to it.
+/// Coarsest step believed. Derived: that of 8 bits; larger differences are clicks in digital silence.
 const COARSEST_STEP: f32 = 1.0 / 128.0;
 
-/// Energy per Hz of the noise that rounding makes.
+/// Energy of the quantization noise per Hz.
 ///
 /// # Formula
 /// `q²/12` over half the rate, q being the recording's step: the smallest difference of neighbouring samples. Between
 /// the sounds of a coarse recording a few samples toggle by one step and the rest are equal, so no quantile of its
 /// energy knows this.
 pub(super) fn quantization_density(samples: &[f32], bank: &Filterbank) -> f64 {
-    // Without branches, in lanes: it is one of the few things that look at every sample.
+    // Lanes without branches: this loop runs over every sample.
     let mut least = [f32::INFINITY; LANES];
     let next = samples.get(1..).unwrap_or_default();
     let (chunks, rest) = next.as_chunks::<LANES>();

@@ -1,15 +1,15 @@
-//! Mean energies of the windows before and after each moment.
+//! Running means of the energy before and after each moment.
 
 use crate::units::{narrow, real};
 
-/// Values of equal weight that a window with linearly falling weights is worth: (Σw)²/Σw² = ¾ of its length.
+/// Values of equal weight that a window with linearly falling weights is worth. Derived: (Σw)²/Σw² = ¾ of its length.
 pub(super) const FALLING_SHARE: f64 = 0.75;
 
 /// `(A + floor)/(B + floor)` at each hop: A is the mean of the `after` energies from it on, with weights that fall
 /// linearly to nothing, B the mean of the `before` energies before it.
 ///
-/// What is nearest counts most in A, so it is greatest where a sound begins and not anywhere before it. The recording's
-/// first instants have no past: nothing can be said to have risen, and the ratio is 0.
+/// The weights of A are greatest at the moment itself, so A peaks where a sound begins and not anywhere before it. The ratio
+/// is 0 in the first instants of a recording, which have no past to rise from.
 pub(super) fn mean_ratios(energies: &[f32], after: usize, before: usize, floor: f32) -> Vec<f32> {
     let mut ratios = falling_means(energies, after);
     let hops = ratios.len();
@@ -32,7 +32,7 @@ pub(super) fn mean_ratios(energies: &[f32], after: usize, before: usize, floor: 
     ratios
 }
 
-/// Values of which the part that runs side by side is computed together.
+/// Values of a block, whose ratios are computed side by side.
 const AT_ONCE: usize = 64;
 
 /// Mean of the `window` values from each one on, with weights that fall linearly to nothing.
@@ -48,7 +48,7 @@ fn falling_means(energies: &[f32], window: usize) -> Vec<f32> {
         flat += energy - f64::from(left);
         *mean = narrow((scale * falling).max(0.0));
     };
-    // What leaves the window as it moves one step earlier: nothing while it reaches past the end.
+    // The value that leaves the window as it moves one step earlier: 0 while it reaches past the end.
     let whole = energies.len().saturating_sub(window);
     let past_end = means[whole..].iter_mut().zip(&energies[whole..]);
     for (mean, &energy) in past_end.rev() {

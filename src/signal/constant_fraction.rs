@@ -1,8 +1,8 @@
-//! Constant-fraction timing: where an impact's envelope first reaches a fixed share of its own peak.
+//! A constant-fraction discriminator: the time at which an impact's envelope first reaches a fixed share of its own peak.
 
 use crate::units::{real, samples_in};
 
-/// Where an envelope rises, in samples of its window.
+/// The crossing of the threshold by a rising envelope, in samples of its window.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Crossing {
     /// Position between samples.
@@ -26,7 +26,7 @@ pub(crate) fn time(samples: &[f64], coarse: usize, sample_rate_hz: f64) -> Optio
     let from = coarse.saturating_sub(samples_in(EARLIEST_S, sample_rate_hz));
     let to = (coarse + samples_in(LATEST_S, sample_rate_hz)).min(envelope.len());
     let peak = (from..to).max_by(|&a, &b| envelope[a].total_cmp(&envelope[b]))?;
-    // What rings on from the impact before is the level that this one rises from.
+    // The impact rises from the level of the ring of the one before.
     let before = &envelope[from.saturating_sub(to - from)..from];
     let level = before.iter().sum::<f64>() / real(before.len().max(1));
     let spread = (before.iter().map(|e| (e - level).powi(2)).sum::<f64>()

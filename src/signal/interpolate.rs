@@ -216,7 +216,7 @@ mod tests {
         let mut rng = SplitMix64::new(4);
         let noise: Vec<f64> = (0..20_000).map(|_| rng.normal()).collect();
         let squares: f64 = slope(&noise).iter().map(|s| s * s).sum();
-        // A sum of so many squares scatters by a hundredth, neighbours being alike.
+        // The sum of these squares scatters by a hundredth, neighbours being alike.
         assert!((squares / 20_000.0 / slope_gain() - 1.0).abs() < 0.05);
     }
 

@@ -1,4 +1,4 @@
-//! A filter after which the noise of this recording is white, by linear prediction.
+//! A whitening filter, by linear prediction of the noise of this recording.
 
 use super::interpolate::correlated;
 use super::sound::Sound;
@@ -9,14 +9,14 @@ use crate::units::{real, samples_in, whole};
 const ORDER: usize = 24;
 /// Length of the frames among which the quiet ones are sought, in seconds.
 const FRAME_S: f64 = 10e-3;
-/// The noise is looked for this far around the impacts, in seconds.
+/// The noise is learnt this far around the impacts, in seconds.
 const AROUND_S: f64 = 0.5;
 /// Share of the frames that are quiet.
 const QUIET_SHARE: f64 = 0.2;
 /// White noise added before solving, as a share of the power: without it a pure hum has no inverse.
 const REGULARISATION: f64 = 1e-9;
-/// Noise is taken to be at least this share of full scale: a tenth of what rounding to 16 bits leaves, so that a quiet
-/// recording is timed as a loud one is.
+/// Least noise as a share of full scale, so that a quiet recording is timed as a loud one is. Derived: a tenth of the
+/// quantization noise of 16 bits.
 const LEAST_NOISE: f64 = 1e-6;
 
 /// `y[n] = (x[n] − Σ a_k·x[n−k]) / σ`, with unit variance where the recording is quiet.

@@ -1,4 +1,4 @@
-//! How surely the energy went up at each moment.
+//! Change-point evidence: the generalised log-likelihood ratio, at each moment, of a rise of the energy against none.
 
 use super::quantization::quantization_density;
 use super::running_mean::{FALLING_SHARE, mean_ratios};
@@ -10,14 +10,14 @@ use crate::units::{narrow, real};
 const AFTER_S: f64 = 1e-3;
 /// Shortest window before the moment, in seconds: the ordinary level is worth knowing better than the new one.
 const BEFORE_S: f64 = 1.6e-3;
-/// A band of width B tells apart about 2B values a second; windows hold at least this many before and after.
+/// Independent values that a window holds at least, after and before the moment: a band of width B has about 2B a second.
 const VALUES_AFTER: f64 = 5.0;
 const VALUES_BEFORE: f64 = 6.0;
-/// The ordinary level of a band is not taken below this quantile of its own energy …
+/// The floor of a band's ordinary level is this quantile of its own energy …
 const FLOOR_QUANTILE: f64 = 0.1;
 /// … times this: between digital silence and the first sound there would be infinite evidence.
 const FLOOR_SHARE: f32 = 0.3;
-/// Nor below this share of its greatest energy: 100 dB, the range of a 16-bit recording.
+/// Least floor as a share of the band's greatest energy. Derived: 100 dB, the range of a 16-bit recording.
 const FLOOR_RANGE: f32 = 1e-10;
 /// Evidence above this quantile is unusual for the band.
 const USUAL_QUANTILE: f64 = 0.9;
@@ -80,15 +80,15 @@ impl Evidence {
 
     /// The hop, with its fraction, at which the sound of a peak begins.
     ///
-    /// A slow band knows that the energy rose, but not when: its evidence is nearly as high a window earlier. So the
-    /// change is sought between fixed ends, where each value on the wrong side costs its whole likelihood:
+    /// The evidence of a low band is broad: a window earlier it is nearly as high. So the change point is sought between
+    /// fixed ends, where each value on the wrong side costs its whole likelihood:
     /// ```text
     /// L(k) = −½ Σ_bands [ n₁ ln E₁ + n₂ ln E₂ ],   n₁, E₁ values and mean energy before k, n₂, E₂ from k on
     /// ```
     #[must_use]
     pub fn begin(&self, peak: usize) -> f64 {
         let reach = self.reach(peak);
-        // While the evidence stays high the sound may yet begin; once it has begun, it counts as before and not after.
+        // The onset can lie anywhere on the ridge of high evidence: past it the sound counts as the level before.
         let high = 0.5 * self.total[peak];
         let ridge = self.total[peak..].iter().take_while(|&&g| g > high).count();
         let (from, to) = (
@@ -110,16 +110,16 @@ impl Evidence {
         real(from + best)
     }
 
-    /// How far the time of a peak may be off, in seconds.
+    /// Standard deviation of the time of a peak, in seconds.
     #[must_use]
     pub fn jitter_s(&self, peak: usize) -> f64 {
         self.hop_s * (JITTER_SHARE * real(self.reach(peak))).max(0.5)
     }
 
-    /// Hops that the quickest band that speaks for a peak looks ahead.
+    /// Hops that the quickest band that contributes to a peak looks ahead.
     ///
-    /// Of slow sounds, which only low bands hear, quick bands know nothing, yet chance lets one of them speak. So where
-    /// the evidence lies in bands as slow as that, the quickest is the one up to which it is more than chance.
+    /// Slow sounds are heard by low bands alone, and a quick band contributes to them by chance. So where the evidence lies
+    /// in slow bands, the quickest is the one up to which the sum of the evidence is more than chance.
     fn reach(&self, peak: usize) -> usize {
         let nats = |rise: &BandEvidence| rise.scale * rise.own[peak];
         let loudest = self.bands.iter().map(nats).fold(0.0, f32::max);
@@ -152,15 +152,15 @@ impl Evidence {
 /// A change is located to about this share of the window that it was found with.
 const JITTER_SHARE: f64 = 0.1;
 
-/// A band speaks for a peak if it gives at least this share of what the loudest band gives.
+/// A band contributes to a peak if its evidence is at least this share of the greatest among the bands.
 const CONTRIBUTING: f32 = 0.25;
 
-/// So many nats chance hardly ever gives, in all bands together.
+/// Evidence in nats, over all bands together, that noise hardly ever reaches.
 const BEYOND_CHANCE: f32 = 10.0;
 /// Bands that look farther ahead than this, in seconds, are slow.
 const SLOW_S: f64 = 10e-3;
 
-/// Symmetric filters let a sound be heard before it begins, this much fainter in energy; fainter is not believed.
+/// Energy of a sound before its onset, as a share of that after it, that symmetric filters leak; levels below it count as it.
 const LEAKAGE: f32 = 1e-3;
 
 impl BandEvidence {
@@ -206,7 +206,7 @@ impl BandEvidence {
         }
         let energies = &self.band.energies[from..to];
         let loudest = energies.iter().copied().fold(0.0, f32::max);
-        // In units of the floor every level is at least 1; what the unit adds is the same for all k.
+        // In units of the floor every level is at least 1; the unit adds the same to all k.
         let unit = 1.0 / f64::from(self.floor.max(LEAKAGE * loudest));
         let total: f64 = energies.iter().copied().map(f64::from).sum();
         let count = real(energies.len());
@@ -253,7 +253,7 @@ impl LogRatio {
     }
 }
 
-/// Values that a quantile is taken from at most: it is then known to a hundredth of its share.
+/// Most values that a quantile is taken from: its share is then exact to a hundredth.
 const QUANTILE_VALUES: usize = 8192;
 
 /// The value below which about this share of the values lies, from evenly spaced ones; 0 of none.

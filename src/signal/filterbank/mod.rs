@@ -102,7 +102,7 @@ impl Filterbank {
     }
 
     /// Splits at a quarter of the rate and keeps every second sample: `low` becomes the low half, the mean squares of
-    /// the high half are returned, of so many samples each. Output `m` stands at the time of input `2m`.
+    /// the high half are returned, of `per_hop` samples each. Output `m` stands at the time of input `2m`.
     fn decimate(&self, low: &mut Vec<f32>, per_hop: usize, scratch: &mut Scratch) -> Vec<f32> {
         let half = low.len() / 2;
         // Silence before and after, and enough of it for whole blocks.
@@ -197,7 +197,7 @@ fn halves(
     }
 }
 
-/// What the filters lay out anew for each band.
+/// Buffers of the filters, reused by each band.
 #[derive(Debug, Default)]
 struct Scratch {
     centre: Vec<f32>,

@@ -1,4 +1,4 @@
-//! A template as it is first learnt: the mean of impacts that are aligned.
+//! The first template: the mean of aligned impacts.
 
 use super::Template;
 use crate::signal::smooth::smoothed;
@@ -36,7 +36,7 @@ pub(crate) fn mean(impacts: &[Cut]) -> Vec<f64> {
     mean
 }
 
-/// The variance of what two or more impacts leave of their mean at each sample: `Σ (xᵢ − aᵢ·s)² / (n − 1)`.
+/// The variance of the residuals of two or more impacts at each sample: `Σ (xᵢ − aᵢ·s)² / (n − 1)`.
 fn left_over(impacts: &[Cut], mean: &[f64]) -> Vec<f64> {
     let mut left = vec![0.0; mean.len()];
     for impact in impacts {
@@ -59,8 +59,8 @@ impl Template {
         let reach = samples_in(ENERGY_S, rate);
         let noise = smoothed(&left_over(impacts, &shape), reach);
         let squares: Vec<f64> = shape.iter().map(|s| s * s).collect();
-        // Were it noise, the mean's power would be what single impacts leave, over all their power. A mean of n squares
-        // scatters by √(2/n); four times that is a sound.
+        // The mean of pure noise has the power of the residuals over that of all impacts. A mean of n squares scatters by
+        // √(2/n); four times that is a sound.
         let loud = 1.0 + 4.0 * (1.0 / real(reach)).sqrt();
         let last = smoothed(&squares, reach)
             .iter()

@@ -32,8 +32,8 @@ pub(super) fn weighted_mean(impacts: &[Sample], weights: &[Vec<f64>], mean: &mut
     }
 }
 
-/// The components at each sample: up to three normal equations, which give none where nothing was recorded. Their sums grow sound by sound, over all samples, for
-/// the machine's vectors.
+/// The components at each sample, by up to three normal equations; 0 where nothing was recorded. The sums grow sound by
+/// sound, over all samples, for the machine's vectors.
 pub(super) fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], components: &mut [Vec<f64>]) {
     let (size, length) = (components.len(), weights.first().map_or(0, Vec::len));
     let mut moments = vec![vec![0.0; length]; 2 * size - 1];
@@ -68,7 +68,7 @@ pub(super) fn weighted_fit(impacts: &[Sample], weights: &[Vec<f64>], components:
     }
 }
 
-/// The factors of the matrix of the moments, `M_rc = moments[r + c]`, of so many rows.
+/// The factors of the matrix of the moments, `M_rc = moments[r + c]`, of `size` rows.
 pub(crate) fn factors(moments: &[f64; 5], size: usize) -> Option<Cholesky<3>> {
     let mut matrix: [[f64; 3]; 3] =
         std::array::from_fn(|r| std::array::from_fn(|c| moments[r + c]));

@@ -9,11 +9,12 @@ use super::smooth::smoothed;
 use crate::units::real;
 use average::{sums, weighted_fit, weighted_mean};
 
-/// The head holds this share of the template's energy: the rest tells little of time.
+/// Share of the template's energy that its head holds: the rest adds little information on the time.
 const HEAD_SHARE: f64 = 0.95;
 /// A template counts where its square exceeds its variance by this factor.
 const CLEAR: f64 = 1.5;
-/// Sample k of each component belongs to `k − before` samples after the onset.
+
+/// The common sound of a drop's impacts: sample k of each component is `k − before` samples after the onset.
 #[derive(Debug, Clone, Default)]
 pub struct Template {
     /// `S_c`, of one length.
@@ -21,7 +22,7 @@ pub struct Template {
     /// Variance of the difference between an impact of amplitude 1 and its template.
     pub(crate) misfit: Vec<f64>,
     pub(crate) before: usize,
-    /// Samples that are matched: the rest tells little of time.
+    /// Samples that are matched.
     pub(crate) head: usize,
     /// The sound of each impact, where impacts differ by their speed.
     shapes: Vec<Vec<f64>>,
@@ -33,7 +34,7 @@ pub struct Template {
     noise: Vec<f64>,
 }
 
-/// What is known of one impact's sound.
+/// The sound of one impact, with its variance.
 #[derive(Debug)]
 pub(crate) struct Sample {
     pub amplitude: f64,
@@ -194,10 +195,10 @@ impl Template {
         self.head = self.head_length();
     }
 
-    /// What the impacts leave over: above what is known to be noise, for an amplitude of 1; and the variance that it
-    /// means for the mean, `Σ w²·r²/a² / (Σ w)²`.
+    /// Variance of the residuals above that of the known noise, for an amplitude of 1; and the variance of the mean that
+    /// follows from them, `Σ w²·r²/a² / (Σ w)²`.
     ///
-    /// An impact that makes up the share h of its own template leaves 1 − h of its difference.
+    /// The residual of an impact with the share h (leverage) in its own template is 1 − h of its difference.
     fn left_over(&self, impacts: &[Sample], weights: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
         let power: f64 = impacts.iter().map(|s| s.amplitude * s.amplitude).sum();
         let all = sums(weights);
@@ -222,7 +223,7 @@ impl Template {
 }
 
 impl Sample {
-    /// `a²/noise`: how much the impact knows of the template.
+    /// `a²/noise`: the information of the impact on the template.
     pub(crate) fn weights(&self) -> Vec<f64> {
         let square = self.amplitude * self.amplitude;
         self.noise.iter().map(|n| square / n).collect()
@@ -239,10 +240,11 @@ fn combine(components: &[Vec<f64>], contact_stretch: f64, sum: &mut [f64]) {
     }
 }
 
-/// A tail of less power than this, noise being 1, is not heard.
+/// Least power of a tail that is heard, noise being 1.
 const INAUDIBLE: f64 = 0.02;
 
-/// An impact that is nearly all of its own template says little of how impacts differ.
+/// Greatest leverage that a residual is corrected for: an impact that is nearly all of its own template shows little of how
+/// impacts differ.
 pub(crate) const MOST_SHARE: f64 = 0.9;
 
 #[cfg(test)]
