@@ -38,7 +38,7 @@ const AFTER_S: f64 = 5e-3;
 pub struct Refined {
     /// All impacts, those heard with their times, those inferred as they were.
     pub impacts: Vec<Impact>,
-    /// What all were timed by; none where each was timed by itself.
+    /// The template that all were timed by; none where each was timed by itself.
     pub template: Option<Template>,
 }
 

@@ -47,7 +47,7 @@ impl Aligned {
     }
 }
 
-/// An impact that matches nothing is taken to be this loud until it does.
+/// Amplitude of an impact without a match, until it has one.
 const FAINT: f64 = 1e-3;
 
 /// The aligned impacts next to one.
@@ -58,17 +58,17 @@ fn nearest(aligned: &[usize], i: usize) -> Vec<usize> {
     near
 }
 
-/// The beginning of the sound of some impacts.
+/// The mean head of the sounds of some impacts.
 struct Head {
     template: Template,
     /// Their root mean square amplitude.
     usual: f64,
 }
 
-/// A match of less than this share of its neighbours' size is sought again, so many times farther from its coarse time …
+/// A match of less than this share of its neighbours' amplitude is sought again, `WIDER` times as far from its coarse time …
 const LOST: f64 = 0.5;
 const WIDER: f64 = 4.0;
-/// … and is taken there if it is so many times larger.
+/// … and is taken there if its amplitude is `LOUDER` times as large.
 const LOUDER: f64 = 2.0;
 
 impl Head {
@@ -86,8 +86,8 @@ impl Head {
         }
     }
 
-    /// Where impact `i` matches with about the usual amplitude, and the prior that it was found with. Where a sound rises
-    /// slowly the detector can be off by more than it says, but only so far.
+    /// The match of impact `i` with about the usual amplitude, and the prior that it was found with. Of sounds that rise
+    /// slowly the detector's time can be off by more than its stated jitter, up to a share of the flight.
     fn placed(
         &self,
         started: &Started,

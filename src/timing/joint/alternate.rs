@@ -1,4 +1,4 @@
-//! Times and template in turn.
+//! Alternating least squares: times given the template, then the template given the times.
 
 use super::align::Aligned;
 use super::matched_search::{Search, Window, best_match};
@@ -13,26 +13,27 @@ use crate::units::{real, samples_in};
 
 /// Smoothing of the misfit, either way, in seconds.
 const MISFIT_S: f64 = 0.1e-3;
-/// Farthest that a match moves in one step, in samples.
+/// Farthest that a match moves in one step, in samples. Derived: beyond a sample the expansion in time does not hold.
 const STEP: f64 = 1.0;
-/// Rounds in which impacts may jump to a better match, and rounds in which they then only settle.
+/// Rounds in which impacts may jump to a better match, and rounds of steps alone that follow.
 const SEARCHES: usize = 3;
 const ROUNDS: usize = 3;
 
-/// The impacts of a drop on their way to where all of them fit together.
+/// The impacts of a drop and their template, under refinement.
 #[derive(Debug)]
 pub(super) struct Joint<'a> {
     pub started: &'a Started,
     pub priors: Vec<Prior>,
     pub places: Vec<Place>,
     pub template: Template,
-    /// Power of what nothing explains around each impact, where the last round saw it stand out: knocks, voices, a hand.
+    /// Power of the interference at each impact, where it stood out of the last round's residual: knocks, voices, a hand.
     pub interference: Vec<Vec<f64>>,
     correlator: Correlator,
 }
 
 impl<'a> Joint<'a> {
-    /// The impacts as they are aligned; where they may differ by their contact stretch, the template has so many components.
+    /// The impacts as they are aligned, with a template of this number of components: more than one where impacts may differ
+    /// by their contact stretch.
     pub(super) fn of(started: &'a Started, aligned: Aligned, components: usize) -> Self {
         let mut template = aligned.template;
         let none = vec![0.0; template.len()];
@@ -47,7 +48,7 @@ impl<'a> Joint<'a> {
         }
     }
 
-    /// Settles times and template in turn, so many rounds.
+    /// Refines times and template in turn, for this number of rounds.
     pub(super) fn alternate(&mut self, rounds: usize) {
         for _ in 0..rounds {
             let heads: Vec<Sample> = (0..self.places.len()).map(|i| self.step(i)).collect();
@@ -55,13 +56,13 @@ impl<'a> Joint<'a> {
         }
     }
 
-    /// The usual rounds: first those in which impacts may jump. Gives the doubt of each, which is the standard error by other
-    /// places that match nearly as well.
+    /// The usual rounds: first those in which impacts may jump. Gives the ambiguity of each: the standard error by rival places
+    /// that match nearly as well.
     pub(super) fn search_and_alternate(&mut self) -> Vec<f64> {
         let count = self.places.len();
         let mut ambiguities = vec![0.0; count];
         for round in 0..SEARCHES {
-            // Likelihoods of places are only as far apart as samples err independently; nothing is known of that yet at first.
+            // Likelihoods count samples as independent, which overdispersion corrects; in the first round it is unknown.
             let overdispersions = match round {
                 0 => vec![1.0; count],
                 _ => overdispersions(self),
@@ -80,7 +81,7 @@ impl<'a> Joint<'a> {
         ambiguities
     }
 
-    /// Learns the beginning of the template, and what it does not explain.
+    /// Learns the head of the template, and the interference that it leaves.
     fn learn_heads(&mut self, heads: &[Sample]) {
         self.learn(heads);
         let interference = heads
@@ -115,7 +116,7 @@ impl<'a> Joint<'a> {
         self.learn(&samples);
     }
 
-    /// Puts an impact where it fits best within its reach, in what the others leave; gives its doubt if it fits anywhere.
+    /// Moves an impact to its best match within its reach, the others taken out; gives its ambiguity if there is a match.
     fn search(&mut self, i: usize, overdispersion: f64) -> Option<f64> {
         let prior = self.priors[i];
         let (head, before) = (self.template.head, real(self.template.before));
@@ -171,5 +172,5 @@ impl<'a> Joint<'a> {
 /// Fewest impacts that the whole template is learnt from alone.
 const FEWEST_ALONE: usize = 4;
 
-/// An amplitude falls at most to this share in one step: it never vanishes or turns round.
+/// Least share that an amplitude falls to in one step, so that it never vanishes or changes its sign.
 const LEAST_AMPLITUDE: f64 = 0.1;

@@ -1,4 +1,4 @@
-//! What else is heard where an impact is: the other impacts, what single impacts differ by, and what nothing explains.
+//! Interference at an impact: the other impacts, the misfit of single impacts, and the power that neither explains.
 
 use super::alternate::Joint;
 use crate::signal::interpolate::{KERNEL, shifted};
@@ -6,14 +6,14 @@ use crate::signal::smooth::smoothed;
 use crate::signal::template::Sample;
 use crate::units::{real, samples_in, whole};
 
-/// What nothing explains is judged over this time either way, in seconds, and stands out by this factor.
+/// Interference is measured over this time either way, in seconds, and stands out by this factor.
 const INTERFERENCE_S: f64 = 1e-3;
 const INTERFERENCE_RATIO: f64 = 4.0;
-/// Variance of what was not recorded.
+/// Variance of samples that were not recorded.
 const UNKNOWN: f64 = 1e30;
 
 impl Joint<'_> {
-    /// The power that nothing explains in the sound of an impact, where it stands out.
+    /// The residual power in the sound of an impact, where it stands out of noise and misfit; 0 elsewhere.
     pub(super) fn interference_of(&self, i: usize, head: &Sample) -> Vec<f64> {
         let reach = samples_in(INTERFERENCE_S, self.started.rate);
         let shape = self.template.shape(i);
@@ -56,7 +56,7 @@ impl Joint<'_> {
         }
     }
 
-    /// The sound from so many samples before each impact on, the others taken out.
+    /// The sound from `before` samples before each impact on, the others taken out.
     pub(super) fn surroundings(&self, before: usize, length: usize) -> Vec<Vec<f64>> {
         let around = |i: usize| {
             let begin = self.places[i].position - real(before);
@@ -67,8 +67,8 @@ impl Joint<'_> {
         (0..self.places.len()).map(around).collect()
     }
 
-    /// What all impacts leave of the sound that begins so many samples before the window of an impact, and its variance;
-    /// none where the impact before still rings or nothing was recorded.
+    /// The sound that begins `back` samples before the window of an impact, and its variance; none where the impact before
+    /// still rings or nothing was recorded.
     pub(super) fn before(
         &self,
         i: usize,
@@ -111,7 +111,7 @@ impl Joint<'_> {
         noise
     }
 
-    /// Noise at the samples of an impact, with what nothing explains.
+    /// Noise at the samples of an impact, interference included.
     pub(super) fn noise_and_interference(&self, i: usize, length: usize) -> Vec<f64> {
         let mut noise = self.noise(self.begin(i), length, None);
         for (n, k) in noise.iter_mut().zip(&self.interference[i]) {

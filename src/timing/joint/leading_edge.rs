@@ -1,4 +1,4 @@
-//! The beginnings of the sounds, which do not know yet how long a contact lasts.
+//! Leading edges: the beginnings of the sounds, which are the same however long the contact lasts.
 
 use super::alternate::Joint;
 use super::normal_equations::NormalEquations;
@@ -8,17 +8,17 @@ use crate::units::{real, samples_in};
 
 /// The greatest value is sought this long after the onset, in seconds.
 const PEAK_WITHIN_S: f64 = 2e-3;
-/// A beginning starts so long before the onset, in seconds.
+/// An edge starts this long before the onset, in seconds.
 const LEAD_S: f64 = 0.5e-3;
-/// Rounds in which beginnings settle. In half of all drops they do not come to rest: a beginning unlike the others walks on.
+/// Rounds of alignment. In half of all drops the edges do not converge: one unlike the others moves on.
 const ROUNDS: usize = 12;
 
-/// Samples of a beginning before the onset.
+/// Samples of an edge before the onset.
 fn lead(joint: &Joint<'_>) -> usize {
     samples_in(LEAD_S, joint.started.rate).min(joint.template.before)
 }
 
-/// Samples of a beginning that ends at a share of the greatest value.
+/// Samples of an edge that ends at a share of the greatest value.
 pub(super) fn edge_length(joint: &Joint<'_>, share: f64) -> Option<usize> {
     let onset = joint.template.before;
     let within = samples_in(PEAK_WITHIN_S, joint.started.rate);
@@ -29,20 +29,20 @@ pub(super) fn edge_length(joint: &Joint<'_>, share: f64) -> Option<usize> {
     (end + lead(joint)).checked_sub(onset).filter(|&l| l > 3)
 }
 
-/// The beginnings of all impacts, each matched with the mean of them.
+/// The leading edges of all impacts, each matched with their mean.
 pub(super) struct LeadingEdges {
     /// Each impact's sound, the others taken out, with a margin on both sides.
     sounds: Vec<Vec<f64>>,
-    /// Where each stands in its sound, and its size.
+    /// Position of each edge in its sound, and its amplitude.
     positions: Vec<f64>,
     amplitudes: Vec<f64>,
-    /// Where it stood first, and in the stretch.
+    /// Position at first, in its sound and in the stretch.
     first: f64,
     origins: Vec<f64>,
-    /// Samples of a beginning, before the onset and in all.
+    /// Samples of an edge, before the onset and in all.
     lead: usize,
     pub length: usize,
-    /// Standard deviations of the noise by which a beginning has to stand out.
+    /// Standard deviations of the noise by which an edge has to stand out.
     clear: f64,
 }
 
@@ -88,7 +88,7 @@ impl LeadingEdges {
                 .fold((0.0, 0.0), |(s, w), (m, std)| {
                     (s + m / (std * std), w + 1.0 / (std * std))
                 });
-            // What is common to all is not measured by matching one another.
+            // Matching with their own mean leaves a shift that is common to all unmeasured.
             let common = if weight > 0.0 { sum / weight } else { 0.0 };
             for (p, m) in self.positions.iter_mut().zip(&moves) {
                 *p += m - common;
@@ -100,7 +100,7 @@ impl LeadingEdges {
         places.zip(stds).map(clear).collect()
     }
 
-    /// The beginnings where they stand.
+    /// The edges at their positions.
     fn cuts(&self) -> Vec<Cut> {
         let places = self.sounds.iter().zip(&self.positions);
         let cuts = places

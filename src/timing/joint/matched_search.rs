@@ -1,19 +1,19 @@
-//! Where a shape fits best among samples.
+//! Matched-filter search: the place of a shape among samples, by its likelihood.
 
 use super::Prior;
 use crate::signal::correlate::Correlator;
 use crate::signal::interpolate::{KERNEL, maximum};
 use crate::units::real;
 
-/// A match of less than this share of the best is no rival.
+/// A rival explains at least this share of the energy that the best match explains.
 const RIVAL: f64 = 0.5;
 
-/// A place where a shape fits.
+/// The best match of a shape.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Match {
     pub position: f64,
     pub amplitude: f64,
-    /// Spread over all places that fit, each by its likelihood.
+    /// Standard deviation over all rival places, weighted by their likelihoods.
     pub ambiguity: f64,
 }
 
@@ -33,15 +33,15 @@ pub(super) struct Search {
     pub prior: Prior,
     /// Farthest from the prior, in samples.
     pub reach: usize,
-    /// How many times the variance of independent samples that of these is.
+    /// Variance of these samples over that of independent ones.
     pub overdispersion: f64,
 }
 
 /// The best place for a shape in a window.
 ///
 /// # Formula
-/// `L(p) = (Σ w·x·s(· − p))²/(2 Σ w·s²(· − p))/scale − (p − prior)²/2σ²`: what a shape of positive amplitude explains,
-/// where what it leaves has the variance `scale`, at least 1, times the overdispersion.
+/// `L(p) = (Σ w·x·s(· − p))²/(2 Σ w·s²(· − p))/scale − (p − prior)²/2σ²`: the log-likelihood of a shape of positive
+/// amplitude, where the residual has the variance `scale`, at least 1, times the overdispersion.
 pub(super) fn best_match(
     correlator: &mut Correlator,
     window: Window<'_>,
@@ -58,7 +58,7 @@ pub(super) fn best_match(
     let energies = if flat {
         vec![weights[0] * squares.iter().sum::<f64>(); lags]
     } else {
-        // Rounding leaves nothing certain of what is next to none: there a match explains nothing.
+        // Energies next to 0 are rounding errors: the floor keeps matches there from explaining anything.
         let mut energies = correlator.correlate(&weights, &squares)?;
         let least = LEAST_ENERGY * energies.iter().fold(0.0, |a: f64, &b| a.max(b));
         energies.iter_mut().for_each(|e| *e = e.max(least));
@@ -110,7 +110,7 @@ mod tests {
     use crate::random::SplitMix64;
     use crate::signal::interpolate::shifted;
 
-    /// What a shape explains and its amplitude at every hundredth of a sample, by the definition; the best place of all.
+    /// The best place at every hundredth of a sample by the definition of the likelihood, and the amplitude there.
     fn searched(sound: &[f64], shape: &[f64], prior: Prior, scale: f64) -> (f64, f64) {
         let last = sound.len() - shape.len() - KERNEL;
         let places = (100 * KERNEL..100 * last).map(|k| 0.01 * real(k));

@@ -9,13 +9,14 @@
 //! in variance, learnt from what is left over. That, and the same of all others that still sound, is added to the noise, so
 //! each sample counts by what it knows.
 //!
-//! Where slow impacts last longer than fast ones, a match is late for them by half of what the contact takes longer.
-//! The [beginning](time_walk) of the sound does not know yet how long the contact will last and gives that away; S₁, S₂
-//! with `u = (v/v₁)^(−1/5)` (Hertz) are used in that case alone.
+//! Where slow impacts last longer than fast ones, a match is late for them by half of what the contact takes longer:
+//! [time walk](time_walk). The leading edge of the sound is the same however long the contact lasts and reveals it; S₁, S₂
+//! with the contact stretch `u = (v/v₁)^(−1/5)` less its mean (Hertz) are used in that case alone.
 //!
 //! # Phases
-//! [`Started`] holds what is known before any impact is matched, [`Aligned`] the impacts in their first alignment,
-//! [`Joint`](alternate::Joint) settles template and times in turn, impact after impact, [`Corrected`] holds them settled.
+//! [`Started`] holds the sound and the priors before any impact is matched, [`Aligned`] the impacts in their first
+//! alignment, [`Joint`](alternate::Joint) refines template and times in turn, impact after impact, and [`Corrected`] holds
+//! them with their correction for time walk.
 
 mod align;
 mod alternate;
@@ -43,7 +44,7 @@ use time_walk::Corrected;
 const BEFORE_S: f64 = 1e-3;
 /// The template is at most this long, in seconds: rings and rooms that last longer are noise.
 const LONGEST_S: f64 = 0.2;
-/// Sound before the first impact that shows what noise does, in seconds.
+/// Sound before the first impact that the noise is measured in, in seconds.
 const LEAD_S: f64 = 0.25;
 /// The prior on a time reaches this many standard deviations.
 const PRIOR_REACH: f64 = 4.0;
@@ -56,7 +57,7 @@ struct Prior {
 }
 
 impl Prior {
-    /// Samples about its position that it is sought in.
+    /// Farthest search from its position, in samples.
     fn reach(self) -> usize {
         whole(PRIOR_REACH * self.std).max(2)
     }
@@ -122,7 +123,7 @@ fn timed(
                     std.hypot(walk.std(contact_stretch)).hypot(ambiguity),
                 )
             }
-            // It does not resemble the others, or rival places lie farther apart than the detector errs.
+            // An impact unlike the others, or one whose rival places lie farther apart than the detector errs.
             _ => (prior.position + usual, prior.std),
         };
         Impact {
@@ -134,7 +135,7 @@ fn timed(
     (0..stds.len()).map(in_recording).collect()
 }
 
-/// How far matches usually stand after the detector's times, in samples: the median.
+/// Median of matched positions less the detector's, in samples.
 fn usual_move(priors: &[Prior], places: &[Place]) -> f64 {
     let pairs = places.iter().zip(priors);
     upper_median(pairs.map(|(place, prior)| place.position - prior.position)).unwrap_or(0.0)

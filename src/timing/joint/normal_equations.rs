@@ -1,4 +1,4 @@
-//! Amplitude and time of one sound by weighted least squares.
+//! Normal equations of the weighted least squares for amplitude and time of one sound.
 
 /// Sums of the weighted least squares for amplitude and time.
 #[derive(Debug, Clone, Copy, Default)]
@@ -39,7 +39,7 @@ impl NormalEquations {
         (size, -lean / amplitude, std)
     }
 
-    /// What the samples tell of time for an amplitude of 1, the amplitude being unknown.
+    /// Fisher's information on the time for an amplitude of 1, the amplitude being unknown.
     pub(super) fn slope_information(&self) -> f64 {
         self.slope_slope - self.shape_slope.powi(2) / self.shape_shape
     }
@@ -49,7 +49,7 @@ impl NormalEquations {
         amplitude * self.shape_shape.sqrt()
     }
 
-    /// How strongly each sample of the sound pulls the time, in samples of time, for an amplitude.
+    /// Influence of a sample of the sound on the time, in samples of time, for an amplitude.
     pub(super) fn pull(&self, amplitude: f64, shape: f64, slope: f64, noise: f64) -> f64 {
         let determinant = self.shape_shape * self.slope_slope - self.shape_slope.powi(2);
         if determinant <= 0.0 {

@@ -1,4 +1,4 @@
-//! Standard errors that know that neighbouring samples err alike.
+//! Standard errors of the times, corrected for the correlation of neighbouring samples.
 
 use super::alternate::Joint;
 use super::normal_equations::NormalEquations;
@@ -7,26 +7,25 @@ use crate::signal::template::average::sums;
 use crate::signal::template::{MOST_SHARE, Sample};
 use crate::units::real;
 
-/// Blocks of equal information that a sound is cut into; two parameters are fitted to them.
+/// Blocks of equal information that a sound is cut into; two parameters are fitted to them (derived: amplitude and time).
 const BLOCKS: usize = 8;
 const FITTED: usize = 2;
-/// Neighbours on each side whose ratio of errors is averaged: one impact alone says it within a third.
+/// Neighbours on each side over which overdispersion is averaged: one impact alone gives it within a third.
 const NEIGHBOURS: usize = 3;
-/// A match of fewer standard deviations is none.
+/// Weakest match, in standard deviations.
 const FAINTEST: f64 = 3.0;
 
 /// Standard error of each position in samples; none where an impact does not resemble the template.
 ///
 /// # Formula
-/// The time is moved by `Σ h(t)·r(t)`, h the pull of each sample and r what is left over. Where r lasts as long as a
-/// mode does, its samples do not err independently; the sums over blocks of equal information do, more nearly:
+/// The time is moved by `Σ h(t)·r(t)`, h the pull of each sample and r the residual. Where r lasts as long as a mode does,
+/// its samples are correlated; the sums over blocks of equal information are more nearly independent:
 /// ```text
 /// σ² = B/(B − 2)·Σ_blocks (Σ_t h(t)·r(t)/√(1 − share))²
 /// ```
-/// Its ratio to the variance of independent samples varies slowly along the drop and is averaged over neighbours. What
-/// the same pulls make of the noise just before each impact, above what they would make of white noise, is added: hum
-/// and rumble that are left over last longer than a block. All is divided by the [share](attenuation) of the slope that is
-/// known.
+/// Its ratio to the variance of independent samples, the overdispersion, varies slowly along the drop and is averaged over
+/// neighbours. The excess of the noise just before each impact over white noise, under the same pulls, is added: residual
+/// hum and rumble last longer than a block. The standard error is divided by the [attenuation](attenuation).
 pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
     let samples = heads(joint);
     let error_pairs = error_pairs(joint, &samples);
@@ -41,7 +40,7 @@ pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
     (0..error_pairs.len()).map(std).collect()
 }
 
-/// How many times more than independent samples those of each impact move its match, in variance; at least 1.
+/// Overdispersion of each impact: variance of its match over that by independent samples, at least 1.
 pub(super) fn overdispersions(joint: &Joint<'_>) -> Vec<f64> {
     let error_pairs = error_pairs(joint, &heads(joint));
     let overdispersion = |i: usize| overdispersion(&error_pairs, i).max(1.0);
@@ -55,7 +54,7 @@ fn heads(joint: &Joint<'_>) -> Vec<Sample> {
         .collect()
 }
 
-/// The standard errors of all impacts by independent samples and by blocks.
+/// Standard errors of all impacts, by independent samples and by blocks.
 fn error_pairs(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
     let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let template = &joint.template;
@@ -64,7 +63,7 @@ fn error_pairs(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>>
         .collect()
 }
 
-/// The mean ratio of both variances among an impact and its neighbours; 1 if none is known.
+/// Mean ratio of both variances among an impact and its neighbours; 1 if none is known.
 fn overdispersion(error_pairs: &[Option<(f64, f64)>], i: usize) -> f64 {
     let near = i.saturating_sub(NEIGHBOURS)..(i + NEIGHBOURS + 1).min(error_pairs.len());
     let ratios = error_pairs[near]
@@ -75,10 +74,10 @@ fn overdispersion(error_pairs: &[Option<(f64, f64)>], i: usize) -> f64 {
     if count == 0 { 1.0 } else { sum / real(count) }
 }
 
-/// Stretches of noise before each impact that are pulled at, each half a head earlier than the next.
+/// Stretches of noise before each impact that the pulls are applied to, each half a head earlier than the next.
 const STRETCHES: usize = 3;
 
-/// How much more than white noise the noise moves a match: the mean of (Σ h·n)²/Σ h²·noise, less 1.
+/// Excess of the noise over white noise in the variance of a match: the mean of (Σ h·n)²/Σ h²·noise, less 1.
 fn noise_excess(joint: &Joint<'_>, samples: &[Sample]) -> f64 {
     let head = joint.template.head;
     let (mut sum, mut count) = (0.0, 0);
@@ -113,13 +112,13 @@ fn noise_excess(joint: &Joint<'_>, samples: &[Sample]) -> f64 {
     }
 }
 
-/// Fewer stretches of noise say nothing.
+/// Fewest stretches of noise that an excess is measured from.
 const FEWEST_STRETCHES: usize = 4;
-/// A knock in one stretch does not speak for all noise.
+/// Greatest excess of one stretch that counts: a knock in it is no property of the noise.
 const MOST_EXCESS: f64 = 1e4;
 
-/// What white noise of variance 1 in all sounds makes of the variance of their weighted mean at each sample,
-/// `Σ w²/a² / (Σ w)²`. That impacts differ makes it uncertain too, but by waves as long as their own.
+/// Variance of the weighted mean of all sounds at each sample by white noise of variance 1 in each, `Σ w²/a² / (Σ w)²`.
+/// Differences between impacts add to it, but as waves as long as their own.
 fn mean_variances(samples: &[Sample]) -> Vec<f64> {
     let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
     let mut variances = vec![0.0; weights.len()];
@@ -132,11 +131,11 @@ fn mean_variances(samples: &[Sample]) -> Vec<f64> {
     variances
 }
 
-/// Least share that is told: below it, it is nothing but the scatter of the noise.
+/// Least attenuation: smaller values are scatter of the noise.
 const LEAST_ATTENUATION: f64 = 0.02;
 
-/// The share of a sound's slope, in what it tells of time, that is not the template's own noise: by so much less than it
-/// seems does a match follow the impact.
+/// Attenuation by errors in variables: the share of the information on time in a template's slope that is not its own noise.
+/// A match follows the impact by this share of its move.
 ///
 /// # Formula
 /// `1 − Σ w·G·v / (Σ w·s′² − (Σ w·s·s′)²/Σ w·s²)`, w one over the noise, v the variance of a

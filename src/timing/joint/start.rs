@@ -1,4 +1,4 @@
-//! What is known of a drop's impacts before any is matched.
+//! The sound of a drop and the priors of its impacts, before any is matched.
 
 use super::{BEFORE_S, LEAD_S, LONGEST_S, Place, Prior};
 use crate::impact::Impact;
@@ -7,7 +7,7 @@ use crate::signal::template::aligned::{Cut, SHORTEST_S};
 use crate::signal::whiten::Whitened;
 use crate::units::{real, samples_in, whole};
 
-/// Fewest impacts that have something in common.
+/// Fewest impacts timed together. Derived: fewer have no mean to differ from.
 const FEWEST: usize = 3;
 /// Impacts are first aligned by this much of their sound at most, in seconds.
 const FIRST_S: f64 = 12e-3;
@@ -15,13 +15,13 @@ const FIRST_S: f64 = 12e-3;
 /// deviation) within these bounds in seconds.
 const JITTER_PERIODS: f64 = 0.3;
 const JITTER_S: (f64, f64) = (0.5e-3, 1.5e-3);
-/// Nor is an impact off by more than this share of a flight (one standard deviation): it was found where the flights
-/// before it want it.
+/// Greatest error of a detector's time as a share of a flight (one standard deviation): the impact was found where the
+/// flights before it predict it.
 const FLIGHT_SHARE: f64 = 0.05;
-/// Contact of a solid sphere: `ΔT ∝ v^(−1/5)` (Hertz).
+/// Exponent of the contact time of a solid sphere, `ΔT ∝ v^(−1/5)`. Derived: Hertz.
 const EXPONENT: f64 = -0.2;
 
-/// The whitened sound around a drop, and where its impacts are expected. Nothing of it changes.
+/// The whitened sound around a drop, and where its impacts are expected; constant from here on.
 #[derive(Debug)]
 pub(super) struct Started {
     pub sound: Vec<f64>,
@@ -38,7 +38,7 @@ pub(super) struct Started {
     pub flights: Vec<f64>,
     /// Where the detector saw each impact.
     pub priors: Vec<Prior>,
-    /// `(v/v₁)^(−1/5)` less its mean for each impact: how much longer than usual its contact lasts.
+    /// Contact stretch of each impact: `(v/v₁)^(−1/5)` less its mean.
     pub contact_stretches: Vec<f64>,
     /// The loudest of the impacts that nothing follows too soon.
     pub loudest: usize,
@@ -89,7 +89,7 @@ impl Started {
         })
     }
 
-    /// So many samples after an onset at a position, and those before it.
+    /// The sound of an onset at a position: `length` samples after it, and those before it.
     pub(super) fn cut(&self, position: f64, length: usize) -> Vec<f64> {
         shifted(
             &self.sound,
@@ -98,7 +98,7 @@ impl Started {
         )
     }
 
-    /// The same of an impact where it stands.
+    /// The sound of an impact at its place.
     pub(super) fn cut_at(&self, place: &Place, length: usize) -> Cut {
         Cut {
             amplitude: place.amplitude,
@@ -112,8 +112,7 @@ impl Started {
     }
 }
 
-/// Farthest that an impact is from where it was seen, one standard deviation in samples: by the shorter of the flights on both
-/// sides of it.
+/// Greatest standard deviation of an impact's detected position, in samples: by the shorter of the flights on both sides.
 fn farthest(flights: &[f64], i: usize) -> f64 {
     let before = i.checked_sub(1).and_then(|i| flights.get(i));
     let near = before.into_iter().chain(flights.get(i));
@@ -141,7 +140,7 @@ fn longest(flights: &[f64], rate: f64, before: usize) -> usize {
     alone.clamp(samples_in(SHORTEST_S, rate), samples_in(LONGEST_S, rate))
 }
 
-/// How exactly the detector can tell when such a sound begins, in samples.
+/// Standard deviation of the detector's time of a sound like this, in samples.
 fn jitter(sound: &[f64], rate: f64) -> f64 {
     let energy: f64 = sound.iter().map(|x| x * x).sum();
     let change: f64 = sound.windows(2).map(|w| (w[1] - w[0]).powi(2)).sum();
@@ -149,8 +148,8 @@ fn jitter(sound: &[f64], rate: f64) -> f64 {
     (JITTER_PERIODS * period).clamp(JITTER_S.0 * rate, JITTER_S.1 * rate)
 }
 
-/// `(v/v₁)^(−1/5)` less its mean, an impact's speed being that of the flight before it; the first is as much faster than the
-/// second as the second than the third.
+/// Contact stretches `(v/v₁)^(−1/5)` less their mean, an impact's speed being that of the flight before it; the first is as
+/// much faster than the second as the second than the third.
 fn contact_stretches(flights: &[f64]) -> Vec<f64> {
     let [first, second, ..] = flights else {
         return vec![0.0; flights.len() + 1];

@@ -1,4 +1,4 @@
-//! Slow impacts last longer than fast ones, and their sound with them; its beginning does not.
+//! Time walk: slow impacts have longer contacts, so their sounds match the common template late; their leading edges do not.
 
 use super::align::Aligned;
 use super::alternate::Joint;
@@ -7,9 +7,9 @@ use super::start::Started;
 use crate::signal::template::average::factors;
 use crate::statistics::{MAD_TO_STD, upper_median};
 
-/// What is added to the positions so that they stand at the touch and not at a constant share of the contact:
-/// `c₁·u + c₂·u²` samples for a contact stretch u. A longer contact makes c₁; where components were learnt in u and u², the
-/// positions are free by as much of both, and the beginnings settle that too.
+/// The correction of the positions for time walk, so that they stand at the touch and not at a constant share of the
+/// contact: `c₁·u + c₂·u²` samples for a contact stretch u. A longer contact makes c₁; where components were learnt in u and
+/// u², the positions are undetermined by as much of both, and the leading edges determine that too.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct TimeWalk {
     terms: [f64; 2],
@@ -34,7 +34,7 @@ impl TimeWalk {
             .sqrt()
     }
 
-    /// How far its terms are from those of another at most, in its own standard errors.
+    /// Greatest distance of its terms from those of another, in its own standard errors.
     fn moved_from(&self, other: &Self) -> f64 {
         let moved = (0..2).map(|k| {
             let moved = (self.terms[k] - other.terms[k]).abs();
@@ -54,41 +54,41 @@ impl TimeWalk {
     }
 }
 
-/// Fewest impacts that a drift is seen in, and that one or two more components are learnt from.
+/// Fewest impacts that a time walk is fitted to, and that one or two more components are learnt from.
 const FEWEST: usize = 5;
 const FEWEST_LINEAR: usize = 8;
 const FEWEST_SQUARE: usize = 12;
-/// The beginning ends where the sound first reaches one of these shares of its greatest value. Two that follow one another
-/// have to agree: the longest tells most, but the crests of loud impacts may be cut off.
+/// Shares of the greatest value at which a leading edge ends. Two that follow one another have to agree: the longest edge
+/// has the most information, but the crests of loud impacts may be clipped.
 const SHARES: [f64; 3] = [1.0, 0.8, 0.6];
-/// All impacts are asked first, then those alone whose beginning stands out by so many standard deviations: faint ones may
-/// match at a wrong crest.
+/// Standard deviations by which the edges used stand out: those of all impacts first, then the clear ones alone, as faint
+/// ones may match at a wrong crest.
 const CLEAR: [f64; 2] = [f64::NEG_INFINITY, 10.0];
-/// Standard errors by which a drift has to differ from none, and at most two beginnings from each other.
+/// Standard errors by which a time walk differs from 0 at least, and those of two edges from each other at most.
 const SIGNIFICANT: f64 = 4.0;
 const AGREEING: f64 = 3.0;
-/// Beginnings of single impacts scatter by this at least, in seconds: modes do not begin quite alike.
+/// Least scatter of the edges of single impacts, in seconds: modes do not begin quite alike.
 const SCATTER_S: f64 = 3e-6;
-/// Averaging ends once the curve moves by no more than this share of its own standard error …
+/// Robust averaging ends once the curve moves by no more than this share of its own standard error (convention) …
 const REST: f64 = 0.05;
-/// … or after so many rounds: five times as many as were seen, on the suite and on real recordings.
+/// … or after this number of rounds: five times the most seen, on the suite and on real recordings.
 const LIMIT: usize = 100;
 
-/// Rounds of all times before a drift is looked for, and after one is seen.
+/// Rounds of alternation before a time walk is fitted, and after one is found.
 const FIRST_ROUNDS: usize = 3;
 const MORE_ROUNDS: usize = 5;
 
-/// All times settled.
+/// The impacts refined, with their correction for time walk.
 #[derive(Debug)]
 pub(super) struct Corrected<'a> {
     pub joint: Joint<'a>,
-    /// What is to be added for a drift.
+    /// The correction, to be added to the positions.
     pub walk: TimeWalk,
     /// Standard error of each position by rival places, in samples; 0 where none were sought.
     pub ambiguities: Vec<f64>,
 }
 
-/// Settles all times, with or without a drift.
+/// Refines all times, and corrects them for time walk if they have any.
 pub(super) fn correct(started: &Started, aligned: Aligned) -> Corrected<'_> {
     if let Some((joint, walk)) = with_walk(started, &aligned) {
         return Corrected {
@@ -106,7 +106,7 @@ pub(super) fn correct(started: &Started, aligned: Aligned) -> Corrected<'_> {
     }
 }
 
-/// The impacts settled as those that differ by their contact stretch, and their drift; none if they have none.
+/// The impacts refined by a template that depends on the contact stretch, and their time walk; none if it is not significant.
 fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, TimeWalk)> {
     let count = aligned.places.len();
     if count < FEWEST {
@@ -117,13 +117,13 @@ fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, 
     let mut joint = Joint::of(started, aligned.clone(), components);
     joint.alternate(FIRST_ROUNDS);
     significant_walk(&joint)?;
-    // Jumps would be to where the wrong shape fits: impacts of all speeds have to teach it first.
+    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it.
     joint.alternate(MORE_ROUNDS);
     let walk = significant_walk(&joint)?;
     Some((joint, walk))
 }
 
-/// The drift, if it is one: slow impacts match late, and two beginnings say so, of all impacts or of the clear ones.
+/// The time walk, if slow impacts match significantly late by two leading edges, of all impacts or of the clear ones.
 fn significant_walk(joint: &Joint<'_>) -> Option<TimeWalk> {
     let by = |clear| {
         let mut pairs = SHARES.windows(2);
@@ -132,14 +132,14 @@ fn significant_walk(joint: &Joint<'_>) -> Option<TimeWalk> {
     CLEAR.into_iter().find_map(by)
 }
 
-/// The same by two beginnings, of the impacts that are so clear.
+/// The time walk by the edges that end at two shares, of impacts that stand out by `clear`; none where they disagree.
 fn agreeing_walk(joint: &Joint<'_>, clear: f64, shares: &[f64]) -> Option<TimeWalk> {
     let &[longer, shorter] = shares else {
         return None;
     };
     let mut begins = LeadingEdges::of(joint, longer, clear)?;
     let longer = fitted(joint, &begins.aligned())?;
-    // From where the longer beginnings stand, the shorter ones cannot be missed.
+    // The longer edges give positions from which the shorter ones cannot match at another crest.
     begins.length = edge_length(joint, shorter)?;
     let places = begins.aligned();
     let shorter = fitted(joint, &places)?;
@@ -151,7 +151,7 @@ fn agreeing_walk(joint: &Joint<'_>, clear: f64, shares: &[f64]) -> Option<TimeWa
     (agree && short < -SIGNIFICANT * short_std).then_some(shorter)
 }
 
-/// "Begins" less "matches" as a function of contact stretch, by least squares that forgive what lies far off.
+/// Position of the leading edge less that of the match, as a function of contact stretch, by robust least squares.
 fn fitted(joint: &Joint<'_>, begins: &[Option<(f64, f64)>]) -> Option<TimeWalk> {
     let matched = joint.places.iter().zip(&joint.started.contact_stretches);
     let offsets: Vec<EdgeOffset> = begins
@@ -173,7 +173,7 @@ fn fitted(joint: &Joint<'_>, begins: &[Option<(f64, f64)>]) -> Option<TimeWalk> 
     robust_fit(&offsets, terms, LIMIT)
 }
 
-/// The curve through all values, each weighed anew by how far off it lies until the curve rests: Cauchy's weights, for three
+/// The curve through all values by iteratively reweighted least squares, until it converges: Cauchy's weights, for three
 /// robust standard deviations.
 fn robust_fit(values: &[EdgeOffset], terms: usize, limit: usize) -> Option<TimeWalk> {
     let mut weights: Vec<f64> = values.iter().map(|v| 1.0 / (v.std * v.std)).collect();
@@ -195,7 +195,7 @@ fn robust_fit(values: &[EdgeOffset], terms: usize, limit: usize) -> Option<TimeW
     walk
 }
 
-/// How much later than it begins an impact matches.
+/// Position of an impact's leading edge less that of its match, in samples: below 0 where it matches late.
 struct EdgeOffset {
     contact_stretch: f64,
     offset: f64,
@@ -233,7 +233,7 @@ impl Curve {
         level + contact_stretch * (slope + contact_stretch * bend)
     }
 
-    /// All but its level; errors are larger than weights say by a factor.
+    /// The curve without its level; `scale` is the ratio of the errors to those that the weights state.
     fn walk(&self, scale: f64) -> TimeWalk {
         let c = |i: usize, j: usize| self.covariance[i][j] * scale * scale;
         TimeWalk {
