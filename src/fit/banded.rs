@@ -1,6 +1,6 @@
-//! Symmetric matrices with two diagonals beside the main one: what the noise of neighbouring bounces makes.
+//! Pentadiagonal symmetric matrices and their LDLᵀ factors: the covariance of neighbouring bounces.
 
-/// A symmetric matrix: in row i the elements of columns i, i − 1 and i − 2, which are 0 where there is no such column.
+/// A symmetric matrix: in row i the elements of columns i, i − 1 and i − 2, 0 before the first column.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Banded {
     pub rows: Vec<[f64; 3]>,
@@ -22,7 +22,8 @@ struct Row {
     two: f64,
 }
 
-/// Pivots whose product is taken before its logarithm: of variances of ln e, from 10⁻¹⁵ to 1, so many do not underflow.
+/// Pivots whose product is taken before its logarithm: the product of eight variances of ln e, from 10⁻¹⁵ to 1, does not
+/// underflow.
 const PIVOTS_AT_ONCE: usize = 8;
 
 impl Factors {

@@ -1,4 +1,4 @@
-//! What each bounce says of ln e, made linear in the times and in the parameters of the model.
+//! The observation of ln e by each bounce, linearised in the times and in the parameters of the model.
 
 use super::restitution_law::{self, Flight, Loss, TrialLaw};
 use crate::impact::Impact;
@@ -22,17 +22,17 @@ pub struct Terms {
     pub drag: Option<Known>,
     /// p.
     pub speed: Option<Known>,
-    /// How slow impacts differ from fast ones.
+    /// Dependence of contact and e on the impact speed.
     pub law: ImpactLaw,
 }
 
-/// How slow impacts differ from fast ones, by what C and e themselves say.
+/// Dependence of contact and e on the impact speed that follows from C and e themselves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum ImpactLaw {
-    /// Not at all.
+    /// All impacts alike.
     #[default]
     Alike,
-    /// C is the contact of a linear ball with its weight: slow impacts last longer and lose more; C stands for fast ones.
+    /// A linear ball with gravity in contact: slow impacts last longer and lose more; C is that of fast ones.
     Linear,
     /// Viscoelastic spheres: `ln e(v) = θ·(v/v̄)^(1/5)`, slow impacts lose less (Ramírez, Pöschel, Brilliantov and
     /// Schwager 1999; of their series `1 − e = y − ⅗y² + …` in `y ∝ v^(1/5)`, this is right to 0.1·y²).
@@ -47,7 +47,7 @@ pub(super) struct Values {
     pub ln_fast_restitution: f64,
 }
 
-/// Most parameters a model has: θ, C, K and p.
+/// Parameters of the largest model: θ, C, K and p.
 pub(super) const MOST_PARAMETERS: usize = 4;
 
 /// The bounces around a trial of times and parameters.
@@ -57,22 +57,22 @@ pub(super) struct Bounces {
     pub ln_e: Vec<f64>,
     /// Its derivatives by the time of the impact before, its own and the one after.
     pub slopes: Vec<[f64; 3]>,
-    /// How many parameters are fitted.
+    /// Number of fitted parameters.
     pub parameters: usize,
-    /// How ln e of each bounce depends on each fitted parameter; 1 for θ first, 0 past the last.
+    /// Derivative of ln e of each bounce by each fitted parameter; 1 for θ first, 0 past the last.
     pub design: Vec<[f64; MOST_PARAMETERS]>,
-    /// ln of the derivative of ln e by the flight after each bounce …
+    /// ln of the derivative of ln e by the flight after each bounce, …
     pub ln_stretch: Vec<f64>,
-    /// … and how that depends on each fitted parameter.
+    /// … and its derivative by each fitted parameter.
     pub stretching: Vec<[f64; MOST_PARAMETERS]>,
-    /// `ln(e/e₀)` by the weight at the mean speed: θ is ln e there, and e₀ that of fast impacts.
+    /// `ln(e/e₀)` by gravity in contact at the mean speed: θ is ln e there, and e₀ that of fast impacts.
     pub middle_loss: f64,
-    /// Mean ln of the speed of arrival, as a flight without air of so many seconds has it: `ln(2v/g)`.
+    /// Mean ln of the speed of arrival, as the length of its flight without air in seconds: `ln(2v/g)`.
     pub mean_ln_speed: f64,
 }
 
 impl Bounces {
-    /// Made linear around trial times. None if a flight is not longer than the contact.
+    /// Linearised around trial times. None if a flight is not longer than the contact.
     pub(super) fn around(
         trial_s: &[f64],
         observed: &[Impact],
@@ -105,7 +105,7 @@ impl Bounces {
             .map(|((((before, after), lost), slopes), off)| {
                 let moved: f64 = slopes.iter().zip(off).map(|(s, o)| s * o).sum();
                 let observed = after.ends.ln_leaving - before.ends.ln_landing + moved;
-                // Linear around the trial's θ: what of the loss follows from it is not observed.
+                // Linear around the trial's θ: the part of the loss that follows from θ is no observation.
                 observed - lost.ln + lost.by_restitution * ln_restitution
             })
             .collect();
@@ -129,20 +129,20 @@ impl Bounces {
 }
 
 impl Terms {
-    /// Where C and K stand among the fitted parameters, θ being number 0.
+    /// Numbers of C and K among the fitted parameters, θ being number 0.
     pub(super) fn places(&self) -> [Option<usize>; 2] {
         let contact = self.contact.map(|_| 1);
         let drag = self.drag.map(|_| 1 + usize::from(contact.is_some()));
         [contact, drag]
     }
 
-    /// How many parameters are fitted beside θ.
+    /// Number of parameters fitted beside θ.
     pub(super) fn count(&self) -> usize {
         let terms = [self.contact, self.drag, self.speed];
         terms.iter().filter(|t| t.is_some()).count()
     }
 
-    /// How ln e of a bounce, and ln of its derivative by the flight after it, depend on each fitted parameter.
+    /// Derivatives by each fitted parameter of ln e of a bounce, and of ln of its derivative by the flight after it.
     fn dependence(
         &self,
         before: &Flight,

@@ -17,7 +17,7 @@ words! {
         Viscoelastic = "viscoelastic",
         /// The time in contact stands in every interval.
         Contact = "contact",
-        /// A linear ball with its weight: slow impacts last longer and lose more.
+        /// A linear ball with gravity in contact: slow impacts last longer and lose more.
         Linear = "linear",
         /// The air slows the ball.
         Drag = "drag",
@@ -56,7 +56,7 @@ impl ModelKind {
         matches!(self, Self::Contact | Self::ContactDrag | Self::ContactSpeed) || self.is_linear()
     }
 
-    /// Whether it is a linear ball with its weight.
+    /// Whether it is a linear ball with gravity in contact.
     #[must_use]
     pub const fn is_linear(self) -> bool {
         matches!(self, Self::Linear | Self::LinearDrag)
@@ -74,13 +74,13 @@ impl ModelKind {
         matches!(self, Self::Speed | Self::ContactSpeed)
     }
 
-    /// Whether its e depends on the impact speed other than by the weight of the ball.
+    /// Whether its e depends on the impact speed other than by gravity in contact.
     #[must_use]
     pub const fn is_by_speed(self) -> bool {
         self.has_exponent() || matches!(self, Self::Viscoelastic)
     }
 
-    /// How slow impacts differ from fast ones by what contact and e themselves say.
+    /// Dependence of contact and e on the impact speed that follows from them.
     pub(super) const fn law(self) -> ImpactLaw {
         match self {
             Self::Linear | Self::LinearDrag => ImpactLaw::Linear,
@@ -105,7 +105,7 @@ impl ModelKind {
         let flight = FlightLaw::with_drag(gravity, parameters.drag_per_s2)?;
         let ln = parameters.restitution.ln().min(-f64::EPSILON);
         let restitution = Restitution::from_ln(ln)?;
-        // Without a contact its weight takes nothing.
+        // A contact of no duration leaves gravity no time.
         if self.is_linear() && contact_time_s > 0.0 {
             let contact = LinearContact::with_restitution_at(
                 restitution,

@@ -1,4 +1,4 @@
-//! Generalised least squares with what is known of the parameters beforehand, given the sizes of the noises.
+//! Generalised least squares with priors on the parameters, given the sizes of the noises.
 
 use statrs::distribution::{Continuous, ContinuousCDF, Normal};
 
@@ -7,19 +7,19 @@ use super::noise::{Noise, Sizes};
 use crate::linalg::{Cholesky, dot};
 use crate::units::real;
 
-/// Precision and precision-weighted centre of a parameter before the data, as far as it lies from its trial value.
+/// Prior of a parameter, counted from its trial value: precision and centre.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Prior {
     pub precision: f64,
     pub centre: f64,
-    /// It cannot be less than this.
+    /// Least possible value.
     pub least: f64,
-    /// How likely it was beforehand, by precision and centre alone, not to be less.
+    /// Prior probability, by precision and centre alone, of a possible value.
     allowed: f64,
 }
 
 impl Prior {
-    /// Nothing is known.
+    /// No knowledge.
     pub(super) const FLAT: Self = Self {
         precision: 0.0,
         centre: 0.0,
@@ -27,7 +27,7 @@ impl Prior {
         allowed: 1.0,
     };
 
-    /// A normal distribution, of which what is less than `least` is cut off.
+    /// A normal distribution truncated below `least`.
     pub(super) fn new(centre: f64, std: f64, least: f64) -> Self {
         Self {
             precision: std.powi(-2),
@@ -37,7 +37,7 @@ impl Prior {
         }
     }
 
-    /// ln of how much likelier it became by the data that the parameter is not less than its least value.
+    /// ln of the ratio of the probabilities of a possible value after the data and before.
     fn ln_allowed(&self, value: f64, variance: f64) -> f64 {
         if self.least == f64::NEG_INFINITY {
             return 0.0;
@@ -56,7 +56,7 @@ pub(super) struct Solution {
     pub values: [f64; MOST_PARAMETERS],
     /// Their covariance.
     pub covariance: [[f64; MOST_PARAMETERS]; MOST_PARAMETERS],
-    /// Mean and variance of the normal distribution of each, of which what is less than it can be is to be cut off.
+    /// Mean and variance of the normal distribution of each before it is truncated at its least value.
     pub before_least: [(f64, f64); MOST_PARAMETERS],
 }
 
@@ -82,8 +82,8 @@ impl Solution {
         self.values[parameter] = value;
     }
 
-    /// Mean and covariance given that no parameter is less than it can be: one after the other by the moments of a
-    /// normal distribution that is cut off.
+    /// Mean and covariance given that all parameters are possible: one after the other by the moments of a truncated normal
+    /// distribution.
     ///
     /// # Formula
     /// ```text
@@ -130,9 +130,9 @@ impl Solution {
 /// β = V·(XᵀΣ⁻¹z + Λm),   V = (XᵀΣ⁻¹X + Λ)⁻¹
 /// ln L = −½·[ln|Σ| + ln|V⁻¹| − ln|Λ| + (z − Xβ)ᵀΣ⁻¹(z − Xβ) + (β − m)ᵀΛ(β − m) + (n − 1)·ln 2π]
 /// ```
-/// Λ is 0 for θ, of which nothing is known, and is left out of ln|Λ| there: ln L then compares models that all have a θ.
+/// Λ is 0 for θ, which has no prior, and is left out of ln|Λ| there: ln L then compares models that all have a θ.
 ///
-/// What was observed are times and not ln e. Where the bounces' own noise rules, the density of the times is that of ln e
+/// Times are observed, and not ln e. Where the bounces' own noise rules, the density of the times is that of ln e
 /// times the derivative of ln e by the flight after the bounce, `1/(D − C)`, which depends on the parameters:
 /// `Σ ln ∂z_j/∂D_j` is added to ln L, and `ρ_j` times its slope to the right side of the equations, `ρ_j` being the bounces'
 /// share of the variance: where the times' noise rules, its determinant changes with C and cancels the slope. Without it C
@@ -154,7 +154,7 @@ pub(super) fn solve(
 /// The columns of the design and, last, the observations.
 const COLUMNS: usize = MOST_PARAMETERS + 1;
 
-/// [`solve`] with so many columns: known beforehand, they stay in the machine's registers.
+/// [`solve`] with a number of columns that is known to the compiler, so that they stay in the machine's registers.
 fn solve_columns<const N: usize>(
     bounces: &Bounces,
     noise: &Noise,

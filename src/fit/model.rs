@@ -1,4 +1,4 @@
-//! One model fitted to the impact times of a drop: e with an interval that is true.
+//! The fit of one model to the impact times of a drop: e with an interval that covers it.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -23,7 +23,7 @@ pub struct Fit {
     pub ln_restitution: Parameter,
     /// C in seconds, if the model has it; of fast impacts for a linear ball.
     pub contact_s: Option<Parameter>,
-    /// ln e of fast impacts less ln e: above 0 for a linear ball, whose weight takes more from slow ones.
+    /// ln e of fast impacts less ln e: above 0 for a linear ball, as gravity in contact takes more from slow ones.
     pub ln_fast_gain: f64,
     /// K in s⁻², if the model has it.
     pub drag_per_s2: Option<Parameter>,
@@ -31,15 +31,15 @@ pub struct Fit {
     pub exponent: Option<Parameter>,
     /// `σ_e`, the scatter of ln e from bounce to bounce.
     pub bounce_std: f64,
-    /// φ, by how much the stated errors of the times are too small.
+    /// φ, the ratio of the errors of the times to those stated.
     pub timing_scale: f64,
     /// Geometric mean of the speeds of arrival, as `2v/g` in seconds.
     pub mean_speed_s: f64,
     /// ln of the evidence for the model: comparable between models of one drop.
     pub ln_evidence: f64,
-    /// Where the variance of ln e comes from.
+    /// The variance of ln e by cause.
     pub budget: Budget,
-    /// Bounces and times that stray.
+    /// Outliers among bounces and times.
     pub outliers: Outliers,
 }
 
@@ -50,7 +50,7 @@ pub struct Parameter {
     pub value: f64,
     /// Standard deviation; none where the data do not tell.
     pub std: Option<f64>,
-    /// It lies between these in 95 of 100 cases; none where the data do not tell.
+    /// 95 % interval; none where the data do not tell.
     pub interval95: Option<[f64; 2]>,
 }
 
@@ -62,11 +62,11 @@ pub struct Budget {
     pub timing: f64,
     /// By the scatter of the bounces.
     pub bounce: f64,
-    /// By what is known beforehand of contact, drag and speed dependence: their inputs' errors.
+    /// By the priors of contact, drag and speed dependence: their inputs' errors.
     pub inputs: f64,
-    /// By not knowing the sizes of the noises.
+    /// By the uncertainty of the sizes of the noises.
     pub noise_sizes: f64,
-    /// By not knowing which model is right.
+    /// By the uncertainty which model is right.
     pub model: f64,
 }
 
@@ -129,9 +129,9 @@ pub(super) struct Rival {
     pub interval95: [f64; 2],
 }
 
-/// The ends of a mixture lie within the widest of its intervals; so many reaches are looked through all the same.
+/// Reaches in which the ends of a mixture are bisected; they lie within the widest of its intervals, at one.
 const FAR: f64 = 2.0;
-/// Four reaches halved so often leave a hundred-thousandth of one.
+/// Bisections: four reaches halved this often leave a hundred-thousandth of one.
 const HALVINGS: usize = 19;
 
 /// Fits a model. None for fewer than three impacts, a flight that is not longer than the contact, or parameters that run
@@ -141,7 +141,7 @@ pub(super) fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
     Some(Fitted::new(impacts, terms)?.summary())
 }
 
-/// A model fitted, of which intervals and budget are not taken yet: they cost, and of models compared one is told.
+/// A fitted model before its intervals and budget are computed: they are costly, and only the selected model needs them.
 #[derive(Debug)]
 pub(super) struct Fitted<'a> {
     state: State<'a>,
@@ -222,7 +222,7 @@ impl<'a> Fitted<'a> {
     fn parameter(&self, index: usize, offset: f64) -> Parameter {
         let known = self.state.impacts.len() > FEWEST;
         let (mean, std) = self.posterior.moments(index);
-        // What cannot be negative is not said to be, though a normal distribution reaches there.
+        // The mean and the ends are truncated at the least value, which the normal distribution passes.
         let least = self.priors[index].least;
         let quantile = |p| offset + self.posterior.quantile(index, p).max(least);
         Parameter {

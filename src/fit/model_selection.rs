@@ -22,7 +22,7 @@ words! {
         Constant = "constant",
         /// And the time in contact, which stands in every interval.
         Contact = "contact",
-        /// And a linear ball that has this contact time: by its weight slow impacts last longer and lose more.
+        /// And a linear ball that has this contact time: by gravity in contact slow impacts last longer and lose more.
         Linear = "linear",
         /// And the drag of the air.
         Drag = "drag",
@@ -33,7 +33,7 @@ words! {
     }
 }
 
-/// What is known of the ball beforehand.
+/// Known properties of the ball.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Inputs {
     /// Contact time in seconds.
@@ -99,7 +99,7 @@ pub fn select(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Sel
         Choice::Drag if !drag => Some(ModelKind::Drag),
         Choice::Speed => Some(ModelKind::Speed),
         Choice::Viscoelastic => Some(ModelKind::Viscoelastic),
-        // What is known is in every candidate.
+        // Known terms are in every candidate.
         Choice::Constant | Choice::Contact | Choice::Drag => Some(ModelKind::Constant),
     };
     let fits: Vec<(ModelKind, Fitted<'_>)> = CANDIDATES
@@ -144,7 +144,7 @@ pub fn select(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Sel
     let (_, fit) = fits.into_iter().nth(best)?;
     let mut fit = fit.summary().among(&rivals);
     if !selected.has_drag() && inputs.drag_per_s2.is_none() {
-        // It is not told from none.
+        // The little drag of the prior is no result of the data.
         fit.drag_per_s2 = None;
     }
     Some(Selection {
@@ -175,7 +175,7 @@ impl Selection {
 
 /// Whether a model is a candidate: a term whose value is known is part of every model and makes none of its own.
 fn is_fitted(kind: ModelKind, inputs: &Inputs) -> bool {
-    // The weight is: it comes with a contact, known or not.
+    // Gravity in contact comes with a contact, known or not.
     let contact_known = kind.has_contact() && !kind.is_linear() && inputs.contact_s.is_some();
     !(contact_known || kind.has_drag() && inputs.drag_per_s2.is_some())
 }

@@ -10,7 +10,7 @@ use super::bounces::Bounces;
 /// Σ = σ_e²·diag(w) + φ²·A·diag(s²)·Aᵀ
 /// ```
 /// A holds the derivatives of ln e by the times ([`Bounces::slopes`]), s are the stated standard errors of the times, φ is
-/// near 1 and says by how much they are all wrong, w is 1 but for a wild bounce.
+/// near 1 and scales all of them, w is the variance inflation of a bounce: 1 but for an outlier.
 #[derive(Debug, Clone)]
 pub(super) struct Noise {
     /// `A·diag(s²)·Aᵀ`.
@@ -75,8 +75,8 @@ impl Noise {
     /// Fisher's information on `ln σ_e²`, up to a factor of 2.
     ///
     /// # Formula
-    /// `Σ (σ²/(σ² + λᵢ))²`, λ the eigenvalues of the timing part (for equal w): how many bounces' own noise is seen. With
-    /// `L = ln|Σ|` and `u = ln σ_e²` it is `L′ − L″`, taken by differences.
+    /// `Σ (σ²/(σ² + λᵢ))²`, λ the eigenvalues of the timing part (for equal w): the effective number of bounces whose own noise
+    /// is seen. With `L = ln|Σ|` and `u = ln σ_e²` it is `L′ − L″`, taken by differences.
     pub(super) fn information(&self, sizes: Sizes) -> Option<f64> {
         const STEP: f64 = 0.2;
         let scale = sizes.timing.powi(2);
@@ -94,10 +94,10 @@ impl Noise {
             .then_some(information.max(f64::MIN_POSITIVE))
     }
 
-    /// `aᵀ·A·diag(s²)·Aᵀ·a` and `aᵀ·diag(w)·a`: what the noises of unit size make of a weighted sum of ln e.
+    /// `aᵀ·A·diag(s²)·Aᵀ·a` and `aᵀ·diag(w)·a`: variances of a weighted sum of ln e by noises of unit size.
     pub(super) fn shares(&self, weights: &[f64]) -> (f64, f64) {
         let row = |(i, row): (usize, &[f64; 3])| -> f64 {
-            // What is beside the main diagonal stands on both sides of it.
+            // Elements beside the main diagonal stand on both sides of it.
             let beside =
                 (1..=2).filter_map(|step| Some(2.0 * row[step] * weights[i.checked_sub(step)?]));
             weights[i] * (row[0] * weights[i] + beside.sum::<f64>())

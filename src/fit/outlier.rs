@@ -1,4 +1,4 @@
-//! Bounces and times that stray: they are kept, and count for little.
+//! Outliers among bounces and times: their variance is inflated, so that they are kept and count for little.
 
 use super::least_squares::solve;
 use super::noise::Sizes;
@@ -6,20 +6,20 @@ use super::posterior::maximum_likelihood;
 use super::state::{State, pulls, time_pull};
 use crate::statistics::{MAD_TO_STD, upper_median};
 
-/// Nats that a stray has to be worth: one bounce or time in two hundred strays, `ln((1 − q)/q)` with q = 0.005.
+/// Log-likelihood in nats that an outlier has to gain: `ln((1 − q)/q)` for q = 0.005, one bounce or time in two hundred.
 const PRICE: f64 = 5.293_304_824_724_492;
-/// A wild bounce scatters ten times as much as others.
+/// Variance inflation of an outlying bounce: it scatters ten times as much as others.
 const VARIANCE_INFLATION: f64 = 100.0;
-/// A stray time is off by this share of the flights around it: another sound in its place.
+/// Standard deviation of an outlying time, as a share of the shorter flight beside it: another sound in its place.
 const OUTLIER_TIME_SHARE: f64 = 0.1;
-/// What is off by less than this many standard deviations strays too little to be looked at.
+/// Standard deviations by which a bounce or time is off at least to be tried as an outlier.
 const SUSPICIOUS: f64 = 2.0;
-/// Of fewer impacts none can be told to be the one that strays.
+/// Fewest impacts among which an outlier can be identified.
 const FEWEST: usize = 7;
-/// At most one in this many strays, or the others are no clear majority.
+/// Impacts for each outlier, at least: the others have to be a clear majority.
 const MOST: usize = 4;
 
-/// Numbers of the impacts that stray, counted from 0.
+/// Numbers of the outlying impacts, counted from 0.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Outliers {
     /// The ball rebounded otherwise than usual.
@@ -28,10 +28,10 @@ pub struct Outliers {
     pub times: Vec<usize>,
 }
 
-/// Finds strays that hide one another, then others one by one, the clearest first, and lets them count less.
+/// Finds outliers that mask one another, then others one by one, the clearest first, and inflates their variances.
 ///
-/// A stray is believed where the data are likelier with it than without by more than strays are rarer than others, each
-/// at its likeliest scatter.
+/// An outlier is accepted where it raises the maximum likelihood, at the best scatter with it and without it, by more than
+/// outliers are rarer than other impacts.
 pub(super) fn find(state: &mut State<'_>) -> Option<Outliers> {
     let impacts = state.time_variances.len();
     let mut outliers = Outliers {
@@ -64,9 +64,8 @@ pub(super) fn find(state: &mut State<'_>) -> Option<Outliers> {
     Some(outliers)
 }
 
-/// Times that stray together, as at the end of a drop where nothing is clear any more: many strays hide one another, for
-/// the scatter of all bounces grows by them. So they are sought where bounces scatter as half of them do, the farthest
-/// first, and tried as a whole, at the price of each.
+/// Outlying times that mask one another, as at the faint end of a drop: the scatter of all bounces grows by them. So they
+/// are sought at the scatter of the median bounce, the farthest first, and tried as a whole, at the price of each.
 fn masked_outliers(state: &mut State<'_>) -> Option<Vec<usize>> {
     let impacts = state.time_variances.len();
     let bounces = state.bounces()?;
@@ -90,7 +89,7 @@ fn masked_outliers(state: &mut State<'_>) -> Option<Vec<usize>> {
         }
         Some((likelihood(&without)?, without))
     };
-    // Between two strays a time looks like a third: only those stay that the others do not explain.
+    // Between two outliers a time looks like a third: only those stay that the others do not explain.
     let mut kept = far.clone();
     for time in far {
         let others: Vec<usize> = kept.iter().copied().filter(|&t| t != time).collect();
@@ -107,7 +106,7 @@ fn masked_outliers(state: &mut State<'_>) -> Option<Vec<usize>> {
     Some(kept)
 }
 
-/// Times that are far off where bounces scatter by so much, the farthest first.
+/// Times that are far off at these sizes of the noises, the farthest first.
 fn far_times(state: &State<'_>, sizes: Sizes) -> Option<Vec<usize>> {
     let mut without = state.clone();
     let mut far = Vec::new();
@@ -115,7 +114,7 @@ fn far_times(state: &State<'_>, sizes: Sizes) -> Option<Vec<usize>> {
         let Some(time) = farthest_time(&without, sizes)? else {
             break;
         };
-        // Until all are found it says nothing of its neighbours.
+        // Its weight goes until all are found, so that it does not make its neighbours look far off.
         without.time_variances[time] += state.shorter_flight(time).powi(2);
         far.push(time);
     }
@@ -143,10 +142,11 @@ fn farthest_time(state: &State<'_>, sizes: Sizes) -> Option<Option<usize>> {
     Some((farthest.0 > FAR).then_some(farthest.1))
 }
 
-/// What is off by more than this many robust standard deviations is looked at together.
+/// Robust standard deviations by which times are off that are tried together.
 const FAR: f64 = 5.0;
 
-/// The likelihood as it stands, the bounce and the time that are farthest off by their own errors; none if none is.
+/// The present likelihood, and the bounce and the time that are farthest off in their own standard errors; none if neither
+/// is far enough.
 fn suspects(state: &State<'_>) -> Option<(f64, usize, usize)> {
     let bounces = state.bounces()?;
     let noise = state.noise(&bounces);

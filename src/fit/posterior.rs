@@ -1,4 +1,4 @@
-//! What is known of ln e when the sizes of the noises are integrated out.
+//! The posterior of ln e, the sizes of the noises integrated out.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
@@ -9,15 +9,15 @@ use crate::physics::priors::BOUNCE_STD;
 use crate::statistics::bisected;
 use crate::units::real;
 
-/// Steps over that range in which the likelihood is searched for: a factor of four each, twice narrowed.
+/// Steps over the range of `σ_e` in the search for its likelihood: a factor of four each, twice narrowed.
 const COARSE: usize = 10;
 const NARROWINGS: usize = 2;
-/// Steps over the part that matters: no longer than this in `ln σ_e`, and at least so many.
+/// Steps over the part that matters: greatest length in `ln σ_e`, and least number.
 const FINE_STEP: f64 = 0.5;
 const FEWEST_STEPS: usize = 9;
-/// What lies this many nats below the best is left out.
+/// Values this many nats below the best are left out.
 const NEGLIGIBLE: f64 = 12.0;
-/// Standard deviation of ln φ: the stated errors of the times are taken to be right within a quarter.
+/// Prior standard deviation of ln φ: the stated errors of the times are right within a quarter.
 const TIMING_SCALE_STD: f64 = 0.25;
 /// Nodes and weights of Gauss and Hermite's rule for a standard normal variable: ±√3 and 0.
 const HERMITE: [(f64, f64); 3] = [
@@ -25,14 +25,14 @@ const HERMITE: [(f64, f64); 3] = [
     (0.0, 2.0 / 3.0),
     (1.732_050_807_568_877_2, 1.0 / 6.0),
 ];
-/// ln φ at which its likelihood is looked at beforehand, either side of 0.
+/// ln φ either side of 0 at which its likelihood is evaluated beforehand.
 const LOOK: f64 = 0.15;
 
 /// Mixture of the solutions at all sizes of the noises, each by its share of the evidence.
 #[derive(Debug)]
 pub(super) struct Posterior {
     parts: Vec<(f64, Sizes, Solution)>,
-    /// What each parameter cannot be less than.
+    /// The least value of each parameter.
     least: Vec<f64>,
     /// ln of the evidence for the model.
     pub ln_evidence: f64,
@@ -45,8 +45,8 @@ impl Posterior {
     /// ```text
     /// p(θ) ∝ ∬ L(σ_e, φ)·N(θ; θ̂, V)·p(σ_e)·p(φ) dσ_e dφ,   p(ln σ_e) ∝ √(Σ (σ_e²/(σ_e² + λᵢ))²)
     /// ```
-    /// Jeffreys' prior: where the bounces' own noise is seen, `σ_e` is a scale; where the times hide it, that the data do
-    /// not show it is no reason to believe that it is nothing, so small values count less ([`Noise::information`]).
+    /// Jeffreys' prior: where the bounces' own noise is seen, `σ_e` is a scale; where the times hide it, small values count
+    /// less, as data that cannot show it are no evidence that it is 0 ([`Noise::information`]).
     /// Over `ln σ_e` by the trapezoidal rule, over ln φ by Gauss and Hermite's, laid where the posterior of φ is.
     pub(super) fn over_noise(bounces: &Bounces, noise: &Noise, priors: &[Prior]) -> Option<Self> {
         let at = |ln_bounce: f64, timing: f64| {
@@ -133,7 +133,7 @@ impl Posterior {
     }
 }
 
-/// The sizes of the noises that are likeliest with the stated errors of the times, and their solution.
+/// The sizes of the noises of maximum likelihood, with the stated errors of the times, and their solution.
 pub(super) fn maximum_likelihood(
     bounces: &Bounces,
     noise: &Noise,
@@ -149,7 +149,7 @@ pub(super) fn maximum_likelihood(
     };
     let (range, top) = range(at)?;
     let hill = range.hill(top, 0.0, at)?;
-    // Between the places of the grid, or it would jump from one to the next as the trial moves.
+    // Taken between the places of the grid, so that it is continuous as the trial moves.
     match at(hill.vertex) {
         Some((likelihood, found)) if likelihood >= hill.top.1 => Some(found),
         _ => Some(hill.top.2),
@@ -159,7 +159,7 @@ pub(super) fn maximum_likelihood(
 /// Forty standard deviations halved this often leave a millionth of one.
 const BISECTIONS: usize = 26;
 
-/// The part of the range of `ln σ_e` that matters, in fine steps, and about where in it the density is greatest.
+/// The part of the range of `ln σ_e` that matters, in fine steps, and about the place in it of greatest density.
 fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)> {
     let (first, last) = (BOUNCE_STD.0.ln(), BOUNCE_STD.1.ln());
     let (mut from, mut to) = (first, last);
@@ -180,7 +180,7 @@ fn timing_scale(ln_likelihood: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)
     let ln = |x: f64| Some(ln_likelihood(x)? - 0.5 * (x / TIMING_SCALE_STD).powi(2));
     let (less, same, more) = (ln(-LOOK)?, ln(0.0)?, ln(LOOK)?);
     let curvature = (2.0 * same - less - more) / (LOOK * LOOK);
-    // The prior alone bends by its own width; the likelihood can bend the other way.
+    // The curvature is at least that of the prior: the likelihood can bend the other way.
     let width = curvature.max(TIMING_SCALE_STD.powi(-2)).sqrt().recip();
     let centre = width * width * (more - less) / (2.0 * LOOK);
     Some((
@@ -189,7 +189,7 @@ fn timing_scale(ln_likelihood: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)
     ))
 }
 
-/// Where in the range of `ln σ_e` most balls are: at half a per cent.
+/// Place of most balls in the range of `ln σ_e`, as a share of it: half a per cent.
 const COMMON: f64 = 0.67;
 
 /// Evenly spaced places.
@@ -200,7 +200,7 @@ struct Grid {
     count: usize,
 }
 
-/// What is not negligible of a function with one top.
+/// The peak of a unimodal function and where it falls below `negligible`.
 #[derive(Debug)]
 struct Hill<T> {
     /// Place, value, and what was found there.
@@ -224,10 +224,10 @@ impl Grid {
         self.from + real(index) * self.step
     }
 
-    /// The top of a function that rises to one and falls from it, and how far it falls by no more than `negligible`.
+    /// The peak of a unimodal function, and the range in which it is below it by no more than `negligible`.
     ///
-    /// It is followed from the place nearest to `start` both ways only until it is less than that: the rest of the grid
-    /// costs nothing.
+    /// The function is evaluated from the place nearest to `start` both ways until it is below that range: the rest of the
+    /// grid costs nothing.
     fn hill<T>(
         &self,
         start: f64,

@@ -1,4 +1,5 @@
-//! Many measurements of one thing: their mean, and whether they differ by more than each of them claims.
+//! Random effects: the mean of many measurements, their spread beyond the errors that they claim, and outliers by robust
+//! statistics.
 
 use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
@@ -7,16 +8,16 @@ use super::student;
 use crate::statistics::{MAD_TO_STD, median};
 use crate::units::real;
 
-/// The share of batches without any outlier in which one is named all the same.
+/// Share of batches without outliers in which one is named.
 const FALSE_ALARMS: f64 = 0.05;
 
 /// A measurement: a value and its standard error, above 0.
 pub type Measurement = (f64, f64);
 
-/// What measurements say together.
+/// The random-effects mean of measurements, and their spread.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RandomEffects {
-    /// How many there are.
+    /// Number of measurements.
     pub count: usize,
     /// Their mean, each weighted by its own error and what lies between them.
     pub mean: f64,
@@ -24,13 +25,13 @@ pub struct RandomEffects {
     pub mean_std: f64,
     /// Standard deviation of the values.
     pub spread: f64,
-    /// Root mean square of the errors that they claim: the spread that would be there if nothing else differed.
+    /// Root mean square of the errors that they claim: the spread by those alone.
     pub claimed: f64,
-    /// Standard deviation of what differs beside the claimed errors.
+    /// Standard deviation between measurements beside the claimed errors.
     pub between: f64,
     /// Sum of the squares of their distances from the weighted mean over their errors.
     pub chi_square: f64,
-    /// How often chance alone gives a greater χ² to measurements that claim rightly.
+    /// Probability of a greater χ² by chance, if the claimed errors are right.
     pub chance: f64,
     /// √(χ²/(N − 1)), the ratio of Birge: about 1 where they differ as much as they claim.
     pub birge: f64,
@@ -83,16 +84,15 @@ pub struct OutlyingMeasurement {
 
 /// The measurements that are too far from the rest for their own error and the spread of the others.
 ///
-/// Median and median deviation are not moved by the outliers that are looked for, so that several do not hide each
-/// other.
+/// Median and median deviation are robust against the outliers themselves, so that several do not mask each other.
 ///
 /// # Formula
 /// ```text
 /// m = median x,  s = 1.4826·median |x − m|,  b² = max(0, s² − median σ²)
 /// |x − m|/√(σ² + b²) > t,  t the quantile 1 − 0.025/N of Student's distribution with (N − 1)/2 degrees of freedom
 /// ```
-/// as s knows the spread no better than a third of the measurements would. With it, one batch in 20 without outliers or
-/// fewer has one named; among three measurements hardly anything is an outlier.
+/// as s is no more exact than the standard deviation of a third of the measurements. At most one batch in 20 without outliers
+/// has one named; among three measurements hardly anything is an outlier.
 #[must_use]
 pub fn outliers(measurements: &[Measurement]) -> Vec<OutlyingMeasurement> {
     let count = real(measurements.len());
@@ -169,7 +169,7 @@ mod tests {
         measurements[7].0 = 0.952;
         let named: Vec<usize> = outliers(&measurements).iter().map(|o| o.index).collect();
         assert_eq!(named, [2, 7]);
-        // What claims little is not far away.
+        // A measurement with a large error is not far away.
         measurements[7].1 = 0.05;
         assert_eq!(outliers(&measurements).len(), 1);
     }

@@ -1,4 +1,4 @@
-//! How slow impacts differ from fast ones: not at all, by the weight of a linear ball, or as viscoelastic spheres.
+//! Restitution laws of the impact speed: constant, linear with gravity in contact, or viscoelastic.
 
 use super::bounces::{ImpactLaw, Terms, Values};
 use crate::physics::ends::Ends;
@@ -8,21 +8,21 @@ use crate::units::real;
 /// A flight.
 pub(super) struct Flight {
     pub ends: Ends,
-    /// By how much it is shorter where C is longer: 1 but for a linear ball.
+    /// Derivative of the contact before it by C, by which it gets shorter: 1 but for a linear ball.
     pub shorter: f64,
 }
 
-/// What the law takes from ln e of one bounce, less what it takes at the mean speed: θ is ln e there.
+/// The law's loss of ln e at one bounce, less that at the mean speed, where ln e is θ.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Loss {
     pub ln: f64,
-    /// How that depends on θ, on C, and on ln of the flight before.
+    /// Its derivatives by θ, by C, and by ln of the flight before.
     pub by_restitution: f64,
     pub by_contact: f64,
     pub by_ln_flight: f64,
 }
 
-/// The law of slow impacts.
+/// The law at trial values of the parameters.
 pub(super) struct TrialLaw {
     law: TrialKind,
     ln_restitution: f64,
@@ -54,8 +54,8 @@ impl TrialLaw {
         })
     }
 
-    /// The losses at these ln speeds of arrival (as flights in seconds), beyond that at their mean, and what that is less
-    /// than e of fast impacts.
+    /// The losses at these ln speeds of arrival (as flights in seconds), beyond that at their mean, and `ln(e/e₀)` at the
+    /// mean, e₀ being that of fast impacts.
     pub(super) fn losses(
         &self,
         values: Values,
@@ -82,8 +82,8 @@ impl TrialLaw {
         }
     }
 
-    /// The losses of a linear ball. The slowest impacts lose far more than the mean speed does, so the mean of the losses
-    /// would be the loss at no speed that anyone knows.
+    /// The losses of a linear ball by gravity in contact, counted from that at the mean speed: the mean of the losses, which
+    /// the slowest impacts dominate, belongs to no known speed.
     ///
     /// # Formula
     /// With `δ(s, e₀) ≈ −s·h(e₀)`, `κ = d ln h/d ln e₀ ≈ 1/l − 2l/(π² + l²) − 1/(1 + e₀)`, l = ln e₀, and
@@ -136,7 +136,7 @@ impl TrialLaw {
     }
 }
 
-/// θ follows e₀ by this much at least.
+/// Least derivative of θ by `ln e₀`.
 const LEAST_SLOPE: f64 = 0.2;
 
 /// The flights between trial times. None if one is not longer than the contact before it.

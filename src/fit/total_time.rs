@@ -9,7 +9,7 @@ use crate::impact::Impact;
 use crate::physics::BounceSeries;
 use crate::units::real;
 
-/// What (25) is solved from.
+/// A drop from a known height, its impacts timed: the input of (25).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TimedDrop<'a> {
     /// All impacts in order of time.
@@ -35,7 +35,7 @@ pub enum Missing {
     FirstImpact {
         /// The first flight in seconds.
         first_flight_s: f64,
-        /// What the height and the ratio of the first flights make it, in seconds.
+        /// The first flight by the height and the ratio of the first flights, in seconds.
         expected_s: f64,
     },
     /// The first flight is longer than a perfect ball's from this height.
@@ -52,7 +52,7 @@ pub enum Missing {
     },
 }
 
-/// What the total time says.
+/// The total time and e by it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TotalTime {
     /// From release to rest, in seconds: `√(2·h0/g) + (t_n − t_1) + ΔT`, ΔT the last contact by (20).
@@ -63,7 +63,7 @@ pub struct TotalTime {
     pub eq30: Option<Estimate>,
 }
 
-/// A last flight after which the ball would go on for more than this share of the whole time was not its last.
+/// Greatest time that the ball goes on after the last flight, as a share of the whole: with more it was not the last.
 const LARGEST_REST: f64 = 0.1;
 /// A first flight shorter than expected by more than half a bounce has lost a bounce: halfway in ln T.
 const HALF_A_BOUNCE: f64 = 1.5;
@@ -128,7 +128,7 @@ pub fn solve(drop: &TimedDrop<'_>) -> Result<Result<TotalTime, Missing>, Error> 
     }))
 }
 
-/// Rounds in which the last contact settles.
+/// Rounds in which the last contact converges.
 const CONTACT_ROUNDS: usize = 6;
 
 /// √(h1/h0): e of the first impact, drag of the first fall included; none if the first flight was not heard whole.

@@ -1,4 +1,4 @@
-//! A trial of times and parameters, settled by rounds of linear fits.
+//! A trial of times and parameters, and its convergence to a solution by rounds of linear fits.
 
 use super::bounces::{Bounces, ImpactLaw, MOST_PARAMETERS, Terms, Values};
 use super::least_squares::{Prior, Solution};
@@ -11,16 +11,17 @@ use crate::statistics::upper_median;
 /// The model is made linear anew around the times and parameters found until none of them moves by more than this share
 /// of its own standard error.
 const CONVERGED: f64 = 0.05;
-/// A trial that is not at rest after this many rounds has no solution near; five to ten are usual.
+/// Most rounds: a trial that has not converged by then has no solution near; five to ten are usual.
 const MOST_ROUNDS: usize = 60;
-/// An impact that was not heard may be off by this share of the flights around it.
+/// Standard deviation of an impact that was not heard, as a share of the shorter flight beside it.
 const UNHEARD: f64 = 0.3;
-/// C is shorter than any interval by this share, K no greater than that of a balloon.
+/// Longest C, in shortest intervals.
 const LONGEST_CONTACT: f64 = 0.9;
-/// A linear ball on which its weight rests for longer would hardly leave.
+/// Longest C of a linear ball, in shortest intervals: with more, gravity in contact hardly lets it leave.
 const LONGEST_LINEAR_CONTACT: f64 = 0.45;
-/// e of a linear ball is below 1 by this at least, or it has no damping.
+/// Greatest ln e of a linear ball: at 0 it has no damping.
 const LEAST_LN_LOSS: f64 = -1e-4;
+/// Greatest K in s⁻²: that of a balloon.
 const GREATEST_DRAG: f64 = 100.0;
 
 /// A trial of times and parameters.
@@ -34,7 +35,7 @@ pub(super) struct State<'a> {
     pub values: Values,
     /// Squares of the times' standard errors.
     pub time_variances: Vec<f64>,
-    /// By how much the variance of each bounce is greater than usual.
+    /// Variance of each bounce over the usual one.
     pub variance_inflation: Vec<f64>,
 }
 
@@ -120,7 +121,7 @@ impl<'a> State<'a> {
         )
     }
 
-    /// What is known of each fitted parameter, counted from its trial value.
+    /// The prior of each fitted parameter, counted from its trial value.
     pub(super) fn priors(&self) -> Vec<Prior> {
         let mut priors = vec![Prior::FLAT];
         for (known, trial, least) in [
@@ -133,14 +134,14 @@ impl<'a> State<'a> {
         priors
     }
 
-    /// Finds times and parameters by rounds of linear fits at the likeliest noise. None if they find no rest, or only where
-    /// a parameter is held back from running away.
+    /// Finds times and parameters by rounds of linear fits at the noise of maximum likelihood. None if they do not converge,
+    /// or only where a parameter is held at its greatest value.
     pub(super) fn converge(&mut self) -> Option<()> {
         self.converge_to(CONVERGED, MOST_ROUNDS)
     }
 
-    /// A trial that turns round goes to and fro about a solution: then it moves by half as much, and by twice as much where
-    /// it goes on.
+    /// The step is damped: a trial that turns round oscillates about a solution and moves by half as much, one that goes on
+    /// by twice as much.
     fn converge_to(&mut self, rest: f64, rounds: usize) -> Option<()> {
         let (mut share, mut before): (f64, Vec<f64>) = (1.0, Vec::new());
         for _ in 0..rounds {
@@ -163,7 +164,7 @@ impl<'a> State<'a> {
         None
     }
 
-    /// The way from the trial to a solution: for the times to where the noise of each is most likely to have come from.
+    /// The step from the trial to a solution, for the times to their conditional means given the bounces.
     fn step(
         &self,
         bounces: &Bounces,
@@ -205,7 +206,7 @@ impl<'a> State<'a> {
         })
     }
 
-    /// Holds C and K of a solution within what they can be; gives whether one would be greater.
+    /// Holds C and K of a solution within their ranges; gives whether one would be greater.
     fn hold(&self, solution: &mut Solution) -> bool {
         let [contact, drag] = self.terms.places();
         let bounds = [
@@ -213,7 +214,7 @@ impl<'a> State<'a> {
             (drag, self.values.drag_per_s2, GREATEST_DRAG),
         ];
         let mut held_back = false;
-        // Where the second is held the first may have to be: it follows.
+        // Holding the second moves the first, which may then have to be held.
         for (place, now, greatest) in [bounds[0], bounds[1], bounds[0]] {
             let Some(place) = place else { continue };
             let wanted = now + solution.values[place];
@@ -225,7 +226,7 @@ impl<'a> State<'a> {
         held_back
     }
 
-    /// Goes a share of the way.
+    /// Goes a share of the step.
     fn go(&mut self, step: &Step, share: f64) {
         for (trial_s, move_s) in self.trial_s.iter_mut().zip(&step.moves_s) {
             *trial_s += share * move_s;
@@ -239,10 +240,10 @@ impl<'a> State<'a> {
     }
 }
 
-/// A trial moves by at least this share of the way.
+/// Least share of a step.
 const LEAST_SHARE: f64 = 0.125;
 
-/// The way from a trial to the solution around it.
+/// The step from a trial to the solution around it.
 #[derive(Debug)]
 struct Step {
     /// Of the times, in seconds.
@@ -251,11 +252,11 @@ struct Step {
     moves: Values,
     /// The moves of all times and parameters, each in its own standard errors.
     in_stds: Vec<f64>,
-    /// Whether a parameter would be greater than it can be.
+    /// Whether a parameter would exceed its range.
     held_back: bool,
 }
 
-/// Times are not taken to be better than this, in seconds: a hundredth of a sample at 192 kHz.
+/// Least standard error of a time, in seconds: a hundredth of a sample at 192 kHz.
 const LEAST_TIME_STD_S: f64 = 5e-8;
 
 fn shorter_flight(times_s: &[f64], impact: usize) -> f64 {
@@ -265,7 +266,7 @@ fn shorter_flight(times_s: &[f64], impact: usize) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// `Σ⁻¹·(z − Xβ)`: how hard each bounce pulls at the fit.
+/// `Σ⁻¹·(z − Xβ)`: the pull of each bounce at the fit.
 pub(super) fn pulls(
     bounces: &Bounces,
     noise: &Noise,
