@@ -1,4 +1,4 @@
-//! What the two flights beside an impact say of it: speeds, e and the energy kept, with the errors of the times.
+//! The bounce at an impact by the two flights beside it: speeds, e and the energy kept, with the errors of the times.
 
 use crate::fit::flights::Flights;
 use crate::impact::Impact;

@@ -17,7 +17,7 @@ use crate::sequence::Chain;
 use crate::statistics::upper_median;
 use crate::timing::Timing;
 
-/// What was measured of a drop. What is made of it depends on where the recording ends, which is known last.
+/// A drop as measured, before its estimates: those depend on the end of the recording, which is known last.
 #[derive(Debug, Clone)]
 pub(super) struct Measured {
     /// Index of the channel that it was heard on.
@@ -30,7 +30,7 @@ pub(super) struct Measured {
     bounces: usize,
     rejected: Vec<Rejected>,
     modelled: Modelled,
-    /// What impacts and sound call for.
+    /// Warnings by impacts and sound.
     warnings: Vec<Warning>,
     /// That the impacts were given.
     pub given: Option<Warning>,
@@ -129,7 +129,7 @@ pub(super) fn fit(
     })
 }
 
-/// What a height adds.
+/// Estimates by a height.
 #[derive(Debug, Default)]
 pub(super) struct ByHeight {
     pub total: Option<TotalTime>,
@@ -138,7 +138,7 @@ pub(super) struct ByHeight {
     pub warning: Option<Warning>,
 }
 
-/// What follows from the height of release, for flights of this ratio.
+/// Estimates by the height of release, for flights of this ratio.
 pub(super) fn by_height(
     timed: &[Impact],
     flights: &Flights,

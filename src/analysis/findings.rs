@@ -1,4 +1,4 @@
-//! What was found so far, scene by scene, and what it comes to in the end.
+//! The findings, scene by scene, and the analysis that they add up to.
 
 use super::Settings;
 use super::drop::Measured;
@@ -7,13 +7,13 @@ use super::warnings::{self, Sounds};
 use crate::Error;
 use crate::report::{Analysis, Rejected};
 
-/// How many rejected events of a recording are named, the strongest; the rest is counted.
+/// Rejected events of a recording that are named, the strongest; the rest is counted.
 const NAMED: usize = 50;
 /// Impacts that are kept, of the drops with the most evidence: an hour of one drop after another. With its document
-/// each takes 1 KiB, so that these add 50 MiB to what a scene needs.
+/// each takes 1 KiB, so that these add 50 MiB to the memory of a scene.
 const MOST_IMPACTS: usize = 50_000;
 
-/// What was found in the scenes so far.
+/// The findings in the scenes so far.
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     drops: Vec<Measured>,
@@ -38,7 +38,7 @@ impl Findings {
         }
     }
 
-    /// Impacts told already from a time on, ascending.
+    /// Times of the impacts reported already from a time on, ascending.
     pub(super) fn reported_after(&self, time_s: f64) -> &[f64] {
         &self.reported_s[self.reported_s.partition_point(|&t| t < time_s)..]
     }

@@ -11,7 +11,7 @@ use crate::sequence::Chain;
 use crate::signal::sound::Sound;
 use crate::units::real;
 
-/// Impacts with a ratio of flights.
+/// Fewest impacts of a drop. Derived: two flights have one ratio.
 const FEWEST: usize = 3;
 /// The sound of an impact, from its onset on, in seconds.
 const SOUND_S: f64 = 4e-3;

@@ -15,10 +15,10 @@ use crate::report::{
     Ball, ContactSource, Given, Method, Model, Parameters, Restitution, Warning, WarningCode,
 };
 
-/// A contact time whose interval spans this factor or more is not determined.
+/// Least ratio of the ends of a contact time's interval at which it counts as undetermined. Convention.
 const UNDETERMINED: f64 = 3.0;
 
-/// What is known of the ball, from the settings.
+/// The known properties of the ball, from the settings.
 pub(super) fn inputs(settings: &Settings) -> Result<Inputs, Error> {
     let law = law(settings)?;
     let contact = settings.contact_time_s;
@@ -132,7 +132,7 @@ fn ball(selection: &Selection, inputs: &Inputs, settings: &Settings) -> Option<B
     if low <= 0.0 || high >= UNDETERMINED * low {
         return None;
     }
-    // What (14) to (17) invert is e of fast impacts.
+    // (14) to (17) invert e of fast impacts.
     let ln_fast = selection.fit.ln_restitution.value + selection.fit.ln_fast_gain;
     let restitution = Ratio::from_ln(ln_fast).ok()?;
     let oscillator = Oscillator::from_contact(restitution, contact.value).ok()?;

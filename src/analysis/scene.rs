@@ -23,30 +23,30 @@ pub(super) struct Bounds {
     pub cut: bool,
 }
 
-/// What was heard in a scene.
+/// The drops and events of a scene.
 #[derive(Debug)]
 pub(super) struct SceneResult {
     /// The drops, in order of time.
     pub drops: Vec<Measured>,
     /// Strong events outside the drops, with their strengths.
     pub rejected: Vec<(f64, Rejected)>,
-    /// How many weaker ones there were.
+    /// Number of weaker ones.
     pub weak: usize,
     /// Strengths of all events on the channel that was listened to.
     pub strengths: Vec<f64>,
-    /// How clearly each channel heard.
+    /// Clarity of each channel.
     pub clarities: Vec<f64>,
     /// Whether there was any sound.
     pub sound: bool,
     /// Drops that were cut in two.
     pub split: usize,
-    /// What happened before this is settled; what happened later has to be heard again with what follows.
+    /// Results before this time are final; the audio after it is heard again with the rest of the recording.
     pub final_until_s: f64,
 }
 
 /// Listens to the channel of a scene in which impacts stand out most.
 ///
-/// `reported_s` are impacts in it that were told already, when its first part was heard.
+/// `reported_s` are the times of impacts in it that were reported already, with its first part.
 pub(super) fn hear(
     channels: &[&[f32]],
     bounds: &Bounds,
@@ -106,10 +106,10 @@ pub(super) fn clearest(clarities: &[f64]) -> usize {
     best.max_by(|a, b| a.1.total_cmp(b.1)).map_or(0, |(c, _)| c)
 }
 
-/// Where a scene is cut that does not end.
+/// The cut of a scene that goes on.
 #[derive(Debug, Clone, Copy)]
 struct Edge {
-    /// Drops that begin before this do not wait for the rest: they have lasted for half of what can be held.
+    /// Drops that begin before this are not deferred: they have lasted for half of the audio that can be held.
     oldest_s: f64,
     /// Drops whose next impacts would be later than this may go on.
     end_s: f64,
@@ -117,11 +117,11 @@ struct Edge {
     split: usize,
 }
 
-/// A drop may go on if so many flights like its last do not fit before the cut: some impacts may be too faint …
+/// A drop is open if this many flights like its last do not fit before the cut, as some impacts may be too faint …
 const OPEN_FLIGHTS: f64 = 5.0;
 /// … or this much time, in seconds.
 const OPEN_S: f64 = 0.1;
-/// So much is heard again with what follows, in seconds: flights of a drop that has not made four impacts yet.
+/// Audio before the cut that is heard again, in seconds: flights of a drop that has not made four impacts yet.
 const AGAIN_S: f64 = 6.0;
 /// Audio before its first impact that a drop is heard again with, in seconds.
 const LEAD_S: f64 = 1.0;
@@ -145,7 +145,7 @@ impl Edge {
             .partition(|chain| edge.is_deferred(chain));
         let first_s = deferred.iter().map(|chain| chain.span_s().0 - LEAD_S);
         edge.final_until_s = first_s.fold((end_s - AGAIN_S).max(edge.oldest_s), f64::min);
-        // These last longer than what can be held: their later parts will be other drops.
+        // Drops longer than the audio that can be held are split: their later parts are reported as drops of their own.
         let split = reported.iter().filter(|chain| edge.is_open(chain));
         let split_s: Vec<f64> = split.map(|chain| chain.span_s().1).collect();
         edge.split = split_s.len();
@@ -160,13 +160,13 @@ impl Edge {
         last_s + OPEN_FLIGHTS * (last_s - before_s) + OPEN_S > self.end_s
     }
 
-    /// Whether a drop has to be heard again with what follows.
+    /// Whether a drop is heard again with the rest of the recording.
     fn is_deferred(&self, chain: &Chain) -> bool {
         self.is_open(chain) && chain.span_s().0 - LEAD_S > self.oldest_s
     }
 }
 
-/// An impact was told already if one was told within this time of it, in seconds.
+/// Greatest distance of an impact from one reported already that is the same, in seconds.
 const SAME_S: f64 = 2e-3;
 
 fn is_known(time_s: f64, reported_s: &[f64]) -> bool {
@@ -174,7 +174,7 @@ fn is_known(time_s: f64, reported_s: &[f64]) -> bool {
     reported_s.get(at).is_some_and(|&t| t <= time_s + SAME_S)
 }
 
-/// Whether a chain is the later part of a drop that was told already.
+/// Whether a chain is the later part of a drop that was reported already.
 fn is_reported(chain: &Chain, reported_s: &[f64]) -> bool {
     let known = chain
         .impacts

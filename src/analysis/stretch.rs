@@ -7,7 +7,7 @@ use crate::signal::sound::Sound;
 use crate::signal::whiten::Whitened;
 use crate::timing::{Refined, Timing, refine};
 
-/// Standard error of a time on the detector's grid, in hops: a uniform error of one hop either way.
+/// Standard error of a time on the detector's grid, in hops. Derived: 1/√3, a uniform error of one hop either way.
 const GRID_ERROR: f64 = 0.58;
 
 /// A stretch of a channel, and where listening to its recording began.

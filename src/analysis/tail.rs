@@ -14,13 +14,14 @@ use crate::timing::{Refined, Timing};
 const SHORT_FLIGHT_S: f64 = 0.06;
 /// Impacts before the short flights that are searched again too, so that the chain has something to start from.
 const LEAD: usize = 3;
-/// How far past the expected end is searched: twice the flights that are left at the ratio so far.
+/// Time past the last impact that is searched, over that of the flights left at the ratio so far.
 const PAST_END: f64 = 2.0;
 /// Longest region that is searched, in seconds.
 const LONGEST_REGION_S: f64 = 4.0;
-/// What was rejected is an impact after all if one is found nearer than this, in seconds.
+/// Greatest distance of a rejected event from an impact found anew that is the same, in seconds.
 const SAME_S: f64 = 1e-3;
-/// The new chain is the old one if its early impacts are nearer to the old ones than the jitter of a thud, in seconds.
+/// Greatest distance of the early impacts of a new chain from those of the old one that it continues, in seconds: the jitter
+/// of a thud.
 const SAME_CHAIN_S: f64 = 3e-3;
 
 /// A chain after its end was sought again.

@@ -1,4 +1,4 @@
-//! What a user should know about a result, and what to do about it.
+//! Warnings about a result, each with its remedy.
 
 use super::stretch::Stretch;
 use crate::fit::Estimate;
@@ -8,16 +8,16 @@ use crate::impact::{Impact, Status};
 use crate::report::{Warning, WarningCode};
 use crate::sequence::Chain;
 
-/// Fewer flights than this tell the trend of e from chance badly.
+/// Fewest impacts without a warning: fewer flights hardly distinguish a trend of e from chance. Convention.
 const FEW_IMPACTS: usize = 6;
-/// Samples at least this near full scale are taken to be clipped …
+/// Samples of at least this size, as a share of full scale, count as clipped (convention) …
 const CLIPPED: f32 = 0.9999;
 /// … from this many on in the sound of the impacts.
 const CLIPPED_SAMPLES: usize = 3;
-/// An event at least this strong, in nats, is a transient that a person would notice.
+/// Least strength of an event, in nats, that counts as a transient that a person would notice. Convention.
 const NOTICEABLE: f64 = 30.0;
 
-/// What was heard in the whole recording, for when there is no drop in it.
+/// Sounds of the whole recording, for the warning where it has no drop.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Sounds {
     sound: bool,
@@ -60,7 +60,7 @@ impl Sounds {
     }
 }
 
-/// What the limit of memory cost.
+/// Warnings by the limit of memory.
 pub(super) fn of_memory(left_out: usize, split: usize) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if left_out > 0 {
@@ -79,7 +79,7 @@ pub(super) fn of_memory(left_out: usize, split: usize) -> Vec<Warning> {
     warnings
 }
 
-/// What the impacts of a drop call for.
+/// Warnings by the impacts of a drop.
 pub(super) fn of_chain(stretch: &Stretch<'_>, chain: &Chain) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let (timed, heard) = (&chain.impacts, chain.heard());

@@ -147,14 +147,14 @@ impl LinearContact {
         self.release_rule
     }
 
-    /// What becomes of an impact at `speed_m_per_s`: the first solution of (6), exactly, and (10) from it.
+    /// The outcome of an impact at `speed_m_per_s`: the first solution of (6), exactly, and (10) from it.
     ///
     /// ```text
     /// (6)   x(ΔT) = 0
     /// (10)  e = |ẋ(ΔT)/ẋ(0)|
     /// ```
     ///
-    /// With `g/(ω_n·v) → 0` it tends to (9), (12) and (13). What must be small for those is `g/(ω_n·v)`; the paper's
+    /// With `g/(ω_n·v) → 0` it tends to (9), (12) and (13). `g/(ω_n·v)` is the number that is small for those; the paper's
     /// "mg/k ≪ 1" has a dimension.
     ///
     /// # Errors

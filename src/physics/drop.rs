@@ -3,7 +3,7 @@
 use super::{BallModel, FlightLaw, Impacts, Oscillator, ReleaseRule, RestitutionLaw, check};
 use crate::Error;
 
-/// What happens at an impact.
+/// The bounce of a ball at an impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Bounce {
     /// The linear ball with its weight, until it no longer leaves. Its weight is that of the flight.

@@ -1,6 +1,6 @@
 //! The exact contact of a linear ball at a few speeds, interpolated: a fast form of [`LinearContact`] with derivatives.
 //!
-//! By its weight slow impacts of such a ball last longer and lose more. Both depend on `s = ΔT/T` alone, ΔT the contact time
+//! By gravity in contact slow impacts of such a ball last longer and lose more. Both depend on `s = ΔT/T` alone, ΔT the contact time
 //! of a fast impact and `T = 2v/g` the flight that has its speed, and on e of a fast impact: to first order
 //! `ln e(s) = ln e₀ − s·4ζ√(1 − ζ²)·(1 + e₀)/(π·e₀)`.
 

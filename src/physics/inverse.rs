@@ -36,7 +36,7 @@ pub struct InputErrors {
 pub struct Inversion {
     /// The root: e.
     pub restitution: Restitution,
-    /// What was solved.
+    /// The equation solved.
     pub equation: Equation,
     /// `∂e/∂T_total`.
     pub per_total_time_per_s: f64,

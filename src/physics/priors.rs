@@ -1,5 +1,4 @@
-//! What is known of balls at large before one is heard: the priors of the tracker, of the fit and of what is drawn out
-//! beyond the speeds heard, in one place.
+//! Priors on balls at large, in one place: those of the tracker, of the fit, and of e drawn out beyond the speeds heard.
 //!
 //! Each is a convention: wide enough for every ball that is named beside it, and no wider than ten times that.
 //!
@@ -14,7 +13,7 @@
 //! The tracker, which takes all balls to be of one kind and their e to be the same at all speeds, has numbers of its own
 //! where that makes its quantity another one; each says so.
 
-/// What is known beforehand of a quantity: a normal distribution.
+/// A normal prior of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Known {
     /// Its centre.

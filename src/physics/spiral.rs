@@ -114,7 +114,7 @@ impl Spiral {
         }
     }
 
-    /// What is left of the impact for `P(w)`: `Q(u)` less the damping of the turn. Negative where the ball stays.
+    /// The remainder of the impact for `P(w)`: `Q(u)` less the damping of the turn. Negative where the ball stays.
     fn left_over(&self, u: f64, turn: f64) -> f64 {
         if self.s_squared <= 0.0 && u <= self.zeta + libm::sqrt(-self.s_squared) {
             return f64::NEG_INFINITY;

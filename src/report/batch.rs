@@ -1,4 +1,4 @@
-//! Many recordings in short: a line for each, and what they say together.
+//! Many recordings in short: a line for each, and the mean of their drops.
 
 use super::text::{digits_for, plus_minus};
 use super::wrap::wrapped;
@@ -14,11 +14,11 @@ const RARE: f64 = 0.01;
 pub struct Digest {
     /// Its name.
     pub file: String,
-    /// What came of it.
+    /// Its result.
     pub found: Found,
 }
 
-/// What came of one recording.
+/// The result of one recording.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Found {
     /// Its drops; one at least.
@@ -89,7 +89,7 @@ pub fn summary(digests: &[Digest]) -> String {
     out + "\n" + &counts(digests) + &together(&named)
 }
 
-/// What is told of a name, in lines no wider than a terminal. The name stays whole, with the spaces in it.
+/// The text on a name, in lines no wider than a terminal. The name stays whole, with the spaces in it.
 fn line_of(head: &str, name: &str, told: &str, indent: usize) -> String {
     let as_wide = "x".repeat(name.chars().count());
     let line = wrapped(&format!("{head}{as_wide}: {told}"), indent);
@@ -159,7 +159,7 @@ fn counts(digests: &[Digest]) -> String {
     line + "\n"
 }
 
-/// What the drops say together, and without the outliers if there are any.
+/// The mean of the drops, and that without the outliers if there are any.
 fn together(named: &[(String, Measurement)]) -> String {
     let measurements: Vec<Measurement> = named.iter().map(|(_, m)| *m).collect();
     let Some(pooled) = RandomEffects::of(&measurements) else {

@@ -51,7 +51,7 @@ pub const COLUMNS: [&str; 38] = [
 ];
 
 words! {
-    /// What a row is, by its column `status`.
+    /// The kind of a row, by its column `status`.
     #[non_exhaustive]
     pub enum RowStatus {
         /// A drop.
@@ -82,7 +82,7 @@ pub fn header() -> String {
     COLUMNS.join(",") + "\n"
 }
 
-/// A row per drop; one with the reason where there is none. Values that do not exist are empty.
+/// A row per drop; for a recording without drops one with the reason. Values that do not exist are empty.
 #[must_use]
 pub fn rows(report: &Report) -> String {
     let (info, settings) = (&report.recording, &report.settings);
@@ -136,7 +136,7 @@ fn joined(parts: &[&[String]]) -> String {
     parts.concat().join(",") + "\n"
 }
 
-/// What was measured of a drop, with the warnings of it and of its whole recording.
+/// The measured columns of a drop, with the warnings of it and of its whole recording.
 fn measured(drop: &Drop, of_recording: &[Warning]) -> Vec<String> {
     let e = drop.restitution.as_ref();
     let interval = e.and_then(|e| e.estimate.interval95);

@@ -1,4 +1,4 @@
-//! What was found, as data. Formats are pure functions of it.
+//! The report: results as data. Formats are pure functions of it.
 //!
 //! Field names are those of the JSON document and a contract: more may be added, none renamed.
 
@@ -42,7 +42,7 @@ pub struct Report {
     pub file: String,
     /// The recording itself.
     pub recording: RecordingInfo,
-    /// What was asked for.
+    /// The settings asked for.
     pub settings: Settings,
     /// The drops in order of time.
     pub drops: Vec<Drop>,
@@ -50,9 +50,9 @@ pub struct Report {
     pub rejected: Vec<Rejected>,
     /// How many weaker events were left out without being listed.
     pub rejected_weak: usize,
-    /// What a rule book says of the drops; null unless that was asked for.
+    /// The verdict of a rule book on the drops; null unless that was asked for.
     pub rule: Option<rule::RuleReport>,
-    /// What the user should know.
+    /// Warnings about the recording.
     pub warnings: Vec<Warning>,
 }
 
@@ -106,7 +106,7 @@ pub struct RecordingInfo {
     pub encoding: String,
 }
 
-/// What was heard in a recording.
+/// The drops and events of a recording.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Analysis {
@@ -116,7 +116,7 @@ pub struct Analysis {
     pub rejected: Vec<Rejected>,
     /// How many weaker events were left out without being listed.
     pub rejected_weak: usize,
-    /// What the user should know.
+    /// Warnings about the recording.
     pub warnings: Vec<Warning>,
 }
 
@@ -151,7 +151,7 @@ pub struct Drop {
     pub evidence_nats: f64,
     /// Strong events between the impacts that are none.
     pub rejected: Vec<Rejected>,
-    /// What the user should know about this drop.
+    /// Warnings about this drop.
     pub warnings: Vec<Warning>,
 }
 

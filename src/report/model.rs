@@ -12,9 +12,9 @@ use crate::words::words;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Model {
-    /// What was fitted beside e; constant e where there are too few impacts for any.
+    /// The model fitted; constant e where there are too few impacts for any.
     pub selected: ModelKind,
-    /// What was given and is in the model too, though its name does not say so.
+    /// Terms that were given and are in the model too, whatever its name.
     pub given: Vec<Given>,
     /// Its parameters.
     pub parameters: Parameters,
@@ -25,7 +25,7 @@ pub struct Model {
 }
 
 words! {
-    /// What is known of the ball and so part of every model.
+    /// Known properties of the ball, which are part of every model.
     #[non_exhaustive]
     pub enum Given {
         /// The contact time.

@@ -1,4 +1,4 @@
-//! What a rule book says of a ball, as data and in words.
+//! The verdict of a rule book on a ball, as data and in words.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,7 +22,7 @@ pub struct RuleReport {
     pub mass_kg: f64,
     /// Its diameter in metres, likewise.
     pub diameter_m: f64,
-    /// What each drop says, in the order of the drops.
+    /// The verdict on each drop, in their order.
     pub drops: Vec<Judged>,
     /// The highest predicted rebound less the lowest, of two drops or more, in metres.
     pub spread_m: Option<f64>,
@@ -36,7 +36,7 @@ pub struct RuleReport {
 pub struct Spread {
     /// The highest less the lowest, in metres.
     pub greatest_m: f64,
-    /// Over so many drops.
+    /// Number of drops.
     pub drops: usize,
 }
 
@@ -53,7 +53,7 @@ words! {
     }
 }
 
-/// What a drop says of a rule.
+/// A drop judged by a rule.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Judged {
@@ -75,7 +75,7 @@ pub struct Judged {
     pub would_decide: Option<String>,
 }
 
-/// What a drop says of the rule, one entry after another.
+/// The verdict on a drop, one entry after another.
 pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
     let Some(judged) = rule.drops.get(drop) else {
         return Vec::new();
@@ -106,7 +106,7 @@ pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
     entries
 }
 
-/// What all drops together say of the rule.
+/// The verdict on all drops together.
 pub(super) fn spread(report: &Report) -> Option<String> {
     let rule = report.rule.as_ref()?;
     let (spread_m, allowed) = (rule.spread_m?, rule.allowed_spread?);

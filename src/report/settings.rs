@@ -1,4 +1,4 @@
-//! What is known beforehand and how to listen: asked for by the user, and told in the document.
+//! Settings: known properties of the ball and how to listen, asked for by the user and repeated in the document.
 
 use std::ops::RangeInclusive;
 
@@ -8,7 +8,7 @@ use crate::Error;
 use crate::fit::model_selection::Choice;
 use crate::timing::Timing;
 
-/// What is known beforehand and how to listen: what everyone begins with, and a setter for all that may differ.
+/// Known properties of the ball and how to listen: defaults, and a setter for each that may differ.
 ///
 /// Numbers are taken as they come. [`analyze`](crate::analyze), [`Listener::new`](crate::Listener::new) and all else that
 /// listens checks them once, before anything else: [`check`](Self::check) says which ranges they have.

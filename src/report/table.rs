@@ -8,7 +8,7 @@ const HEADING: [&str; 2] = [
     "            [s]    [µs]   [dB]     [ms]                [10⁻⁶]     [mm]",
 ];
 
-/// The heading and a row for each impact. What does not exist is a dash; an impact that was simply heard says nothing.
+/// The heading and a row for each impact. A value that does not exist is a dash; an impact that was simply heard has no remark.
 pub(super) fn rows(impacts: &[Impact]) -> Vec<String> {
     let heading = HEADING.iter().map(|&line| line.to_owned());
     heading.chain(impacts.iter().enumerate().map(row)).collect()
@@ -47,7 +47,7 @@ fn two_digits(error: Option<f64>) -> String {
 /// Decimals that show a positive number with two digits, at most eight.
 pub(crate) fn decimals(value: f64) -> usize {
     let mut scaled = value;
-    // What rounds to 10 at this many decimals has its two digits.
+    // A value that rounds to 10 at this many decimals has its two digits.
     (0..8)
         .find(|_| {
             let enough = scaled >= 9.95;

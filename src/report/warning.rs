@@ -1,10 +1,10 @@
-//! What a user should know: a word for programs and a sentence for people.
+//! Warnings: a word for programs and a sentence for people.
 
 use serde::{Deserialize, Serialize};
 
 use crate::words::words;
 
-/// Something the user should know, and what to do about it.
+/// A warning, with its remedy.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Warning {
@@ -26,7 +26,7 @@ impl Warning {
 }
 
 words! {
-    /// What a warning is about.
+    /// The cause of a warning.
     #[non_exhaustive]
     pub enum WarningCode {
         /// There is no sound in the recording.

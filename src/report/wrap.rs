@@ -4,7 +4,7 @@
 const WIDTH: usize = 80;
 
 /// The text with line feeds for spaces where a line would get wider than a terminal; those that follow the first are
-/// indented by so many columns. A word that is wider by itself stays whole.
+/// indented by `indent` columns. A word that is wider by itself stays whole.
 pub(super) fn wrapped(text: &str, indent: usize) -> String {
     let mut out = String::with_capacity(text.len());
     let mut column = 0;

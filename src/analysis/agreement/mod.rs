@@ -1,4 +1,4 @@
-//! Whether the ways to e agree, and what usually causes it where they do not.
+//! Agreement of the ways to e, and the usual causes of disagreement.
 
 use super::Settings;
 use super::bounce::ends;
@@ -10,11 +10,12 @@ use crate::impact::Impact;
 use crate::physics::FlightLaw;
 use crate::report::{Estimates, Warning, WarningCode};
 
-/// Two values disagree that differ by more than this many standard deviations of their difference: 1 in 100 by chance.
+/// Two values disagree that differ by more than this many standard deviations of their difference. Convention: 99 % of a
+/// normal distribution.
 /// The errors count as independent; the scatter that estimates share makes that cautious.
 const DISAGREE: f64 = 2.58;
-/// How much too high the first rebound may read for buoyancy and added mass that no one knows, for each unit of K (s²):
-/// half of the 1.5·β that g is less, and `β = 4·K·d/(3·C_d·g)` is 0.014·K for a ball of 45 mm.
+/// Relative excess of the first rebound by unknown buoyancy and added mass, for each unit of K (s²). Derived: half of the
+/// 1.5·β that g is less, and `β = 4·K·d/(3·C_d·g)` is 0.014·K for a ball of 45 mm.
 const BUOYANCY_PER_DRAG: f64 = 0.01;
 
 /// A drag that is fitted may stand for an e that falls with speed: what it changes in the first rebound errs by this
@@ -41,7 +42,7 @@ impl Value {
     }
 }
 
-/// What is known of the drag of the air.
+/// The source of the drag of the air.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Drag {
     /// The model has none.
@@ -65,7 +66,7 @@ pub(super) struct Agreement {
     drag: Drag,
 }
 
-/// What makes estimates disagree.
+/// A cause of disagreement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Cause {
     Drag,
@@ -76,7 +77,7 @@ enum Cause {
 }
 
 impl Cause {
-    /// What the warning is about.
+    /// The code of the warning.
     const fn code(self) -> WarningCode {
         match self {
             Self::Drag => WarningCode::AirDrag,
@@ -100,7 +101,7 @@ impl Agreement {
             return Ok(None);
         };
         let first = match estimates.first_rebound {
-            // What e is at the speed of the first impact is what the model fits.
+            // The model fits e at the speed of the first impact.
             Some(_) if !modelled.by_speed => first(timed, flights, modelled, settings)?,
             _ => None,
         };
@@ -118,7 +119,7 @@ impl Agreement {
         }))
     }
 
-    /// What makes the estimates disagree; none where they agree, or where a drag that is given says why.
+    /// The cause of disagreement; none where the estimates agree, or where a drag that is given explains it.
     ///
     /// | cause | first rebound | (30) | (25) |
     /// |---|---|---|---|
@@ -162,7 +163,7 @@ impl Agreement {
         self.eq30.is_some_and(|q| q.is_below(by_height))
     }
 
-    /// What the user should know where the ways to e disagree.
+    /// The warning where the ways to e disagree.
     pub(super) fn warning(&self) -> Option<Warning> {
         let cause = self.cause()?;
         Some(Warning::new(cause.code(), self.message(cause)))

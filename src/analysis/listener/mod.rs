@@ -1,8 +1,8 @@
 //! Listening to a recording of any length as it comes, in bounded memory.
 //!
-//! A cheap [gate](crate::detect::activity_gate) judges every quarter of a second. Where something rises a *scene* begins; it
-//! ends once nothing has risen for a while, is [analyzed](super::scene) at once, and its audio is let go. A scene that
-//! outgrows the memory is analyzed as far as it goes: drops that may go on past the cut wait for the rest.
+//! An [activity gate](crate::detect::activity_gate) judges every quarter of a second. Where something rises a *scene* begins;
+//! it ends once nothing has risen for a while, is [analyzed](super::scene) at once, and its audio is let go. A scene that
+//! outgrows the memory is analyzed as far as it goes: drops that may go on past the cut are deferred to the rest.
 
 use super::Settings;
 use super::findings::Findings;
@@ -13,22 +13,21 @@ use crate::detect::activity_gate::ActivityGate;
 use crate::report::Analysis;
 use crate::units::{frame_at, frame_time_s, frames, length, real, samples_in};
 
-/// Audio before the first rise that belongs to a scene, in seconds: it shows what is usual here.
+/// Audio before the first rise that belongs to a scene, in seconds: it shows the usual level.
 const BEFORE_S: f64 = 1.0;
 /// Audio after the last rise that belongs to a scene, in seconds: a drop's last impacts are fainter than what rises.
 const AFTER_S: f64 = 1.5;
-/// A scene is over once nothing has risen for so long, in seconds: no flight takes as long.
+/// Time without a rise after which a scene is over, in seconds. Derived: a flight of 3 s rises 11 m.
 const OVER_S: f64 = 3.0;
-/// What is set aside takes at most so many times the room that it needs.
+/// Largest capacity of the buffer of earlier audio, over its length.
 const MOST_ASIDE: usize = 8;
-/// Audio that is held at most, in bytes over all channels: with the working memory of the analysis it stays below
-/// 64 MiB.
+/// Most audio held, in bytes over all channels: with the working memory of the analysis it stays below 64 MiB.
 const HELD_BYTES: usize = 20 << 20;
-/// But so much is held of any recording, in seconds: a drop has to fit. Only above 600,000 samples a second over all
-/// channels is that more than [`HELD_BYTES`].
+/// Least audio held of any recording, in seconds: a drop has to fit. It exceeds [`HELD_BYTES`] only above 600,000 samples a
+/// second over all channels.
 const LEAST_HELD_S: f64 = 8.0;
-/// So many samples a second over all channels are listened to at most, such as 32 channels at 48 kHz or two at 768: with
-/// [`LEAST_HELD_S`] of them and the working memory of the analysis it stays below 256 MiB. A header may claim 4 GHz.
+/// Most samples a second over all channels, such as 32 channels at 48 kHz or two at 768: with [`LEAST_HELD_S`] of them and
+/// the working memory of the analysis it stays below 256 MiB. A header may claim 4 GHz.
 const MOST_SAMPLES_PER_S: f64 = 1_536_000.0;
 
 /// Listens to all channels of a recording, block after block.
@@ -53,7 +52,7 @@ pub struct Listener {
     listened: std::ops::Range<u64>,
     /// Frames pushed so far.
     position: u64,
-    /// The audio just before what is held: [`BEFORE_S`] of it, where there was so much.
+    /// The audio just before that held: up to [`BEFORE_S`] of it.
     earlier: Vec<Vec<f32>>,
     /// The audio held, channel by channel; its first frame is `held_from`, and `judged` is where the gates stand.
     held: Vec<Vec<f32>>,
@@ -163,7 +162,7 @@ impl Listener {
         Ok(result)
     }
 
-    /// What was heard, and the channel that most of it was heard on.
+    /// The analysis, and the channel that most of it was heard on.
     ///
     /// # Errors
     /// [`Error::Argument`] if nothing of the recording is in the part that was to be listened to.
@@ -208,7 +207,7 @@ impl Listener {
         let begin = self.place(self.judged);
         let mut rises = false;
         for (gate, held) in self.gates.iter_mut().zip(&self.held) {
-            // Every gate has to hear everything.
+            // Each gate takes in every unit, also where another one rose.
             rises |= gate.rises(&held[begin..begin + unit]);
         }
         let end = self.judged + frames(unit);
@@ -281,7 +280,7 @@ impl Listener {
         self.held_from = before;
     }
 
-    /// Analyzes a scene; gives the frame up to which that is settled.
+    /// Analyzes a scene; gives the frame up to which the result is final.
     fn hear(&mut self, from: u64, to: u64, cut: bool) -> Result<u64, Error> {
         let bounds = Bounds {
             first: from,
@@ -306,7 +305,7 @@ impl Listener {
     }
 }
 
-/// The channels are not what they should be, of which there are so many.
+/// The error of a block whose channels differ in number or length from those announced.
 fn unlike(channels: usize) -> Error {
     let expected = "as many as announced, all of one length";
     Error::argument("channels", real(channels), expected)

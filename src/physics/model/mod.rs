@@ -9,8 +9,8 @@ use crate::Error;
 
 /// A ball on a surface, in air or without: everything that decides when it hits next.
 ///
-/// What is fitted to a recording, judged by a rule, drawn as a line and dropped by [`DropSetup`](super::DropSetup) is this
-/// one type. All of it is exact: the linear ball by [`LinearContact`], the flight by [`FlightLaw`].
+/// This one type is fitted to a recording, judged by a rule, drawn as a line and dropped by
+/// [`DropSetup`](super::DropSetup). All of it is exact: the linear ball by [`LinearContact`], the flight by [`FlightLaw`].
 ///
 /// ```
 /// use bounce_audio::physics::{BallModel, Bounce, FlightLaw, Restitution, RestitutionLaw};
@@ -33,7 +33,7 @@ pub struct BallModel {
     surface: Surface,
 }
 
-/// Rounds in which the contact of a linear ball settles within an interval; each leaves a hundredth or less.
+/// Rounds in which the contact of a linear ball converges within an interval; each leaves a hundredth or less.
 const CONTACT_ROUNDS: usize = 30;
 
 /// A bounce whose parameters were checked.
@@ -76,7 +76,7 @@ impl BallModel {
         &self.flight
     }
 
-    /// What becomes of an impact at this speed.
+    /// The outcome of an impact at this speed.
     ///
     /// With restitution and contact time as given the ball always leaves, undeformed.
     ///

@@ -48,7 +48,7 @@ fn text(impact: &Impact) -> String {
     }
 }
 
-/// What the text of a label says; of a label that a person wrote perhaps nothing.
+/// The content of a label's text; a label that a person wrote may have none.
 #[derive(Debug, Clone, Copy, Default)]
 struct Said {
     drop: Option<usize>,
@@ -125,7 +125,7 @@ fn error(text: &str, label: &Label) -> Result<f64, Error> {
 /// `by_hand_s`. With `inferred` as part of its text, an impact is counted but bounds no flight.
 ///
 /// # Errors
-/// [`Error::Line`] naming the label, for an error that is none or a time that another label of the drop has.
+/// [`Error::Line`] naming the label, for an invalid error or a time that another label of the drop has.
 pub fn drops(labels: &[Label], form: Form, by_hand_s: f64) -> Result<Vec<Vec<Marked>>, Error> {
     let said = labels.iter().map(Said::by);
     let said = said.collect::<Result<Vec<Said>, Error>>()?;

@@ -65,7 +65,7 @@ impl Form {
 pub struct Label {
     /// Where it begins, in seconds from the first sample.
     pub time_s: f64,
-    /// What it says.
+    /// Its text.
     pub text: String,
     /// The line that it stands in, from 1.
     pub line: usize,
