@@ -171,7 +171,7 @@ mod tests {
         let mut times: Vec<f64> = strongest[..4].iter().map(|c| c.time_s).collect();
         times.sort_by(f64::total_cmp);
         for (time, (true_time, _)) in times.iter().zip(late) {
-            // What overlaps pulls its neighbour by some hundredths of a millisecond.
+            // Overlapping impacts pull each other by some hundredths of a millisecond.
             let late = time - true_time - template.onset(RATE) / RATE;
             assert!(late.abs() < 1e-4, "{times:?}");
         }

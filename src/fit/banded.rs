@@ -1,4 +1,4 @@
-//! Pentadiagonal symmetric matrices and their LDLᵀ factors: the covariance of neighbouring bounces.
+//! Pentadiagonal symmetric matrices and their factors `L·D·Lᵀ`: the covariance of neighbouring bounces.
 
 /// A symmetric matrix: in row i the elements of columns i, i − 1 and i − 2, 0 before the first column.
 #[derive(Debug, Clone, PartialEq)]

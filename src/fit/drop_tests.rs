@@ -361,7 +361,7 @@ fn a_light_ball_is_not_taken_for_a_duller_one_where_mass_and_diameter_are_given(
             std: 0.07 * rate * rate,
         }),
     };
-    // What the first ratio and the mean of 30 are off by, for which the drag is to blame.
+    // Errors by drag of the first ratio and of the mean of 30.
     for (height_m, first_off, mean_off) in [(0.305, 0.026, 0.005), (1.0, 0.07, 0.011)] {
         let (mut at_s, mut speed) = (0.0, law.fall(height_m).unwrap().landing_speed_m_per_s);
         let mut impacts = Vec::new();

@@ -108,7 +108,7 @@ impl Row {
         std::iter::once(Prior::FLAT).chain(prior).collect()
     }
 
-    /// What the parameters are counted from.
+    /// Trial values that the parameters are counted from.
     fn offsets(&self) -> Vec<f64> {
         let contact = self.contact_s.map(|_| self.trial.contact_s);
         let drag = self.drag_per_s2.map(|_| self.trial.drag_per_s2);
@@ -206,7 +206,7 @@ fn the_information_is_that_of_the_eigenvalues() {
     }
 }
 
-/// Mean and standard deviation of each parameter, and the interval of ln e, off by so many standard deviations.
+/// Mean and standard deviation of each parameter, and the interval of ln e, against the oracle, in standard deviations.
 fn mixture_off(row: &Row, posterior: &Posterior, expected: &Mixture) -> f64 {
     let offsets = row.offsets().into_iter().enumerate();
     let (means, stds): (Vec<f64>, Vec<f64>) = offsets

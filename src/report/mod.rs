@@ -57,7 +57,7 @@ pub struct Report {
 }
 
 impl Report {
-    /// What was heard in a recording of this name with these settings.
+    /// The report on a recording of this name with these settings.
     #[must_use]
     pub fn new(
         file: String,

@@ -1,4 +1,4 @@
-//! What is written is read back; what a person changed is not what was written.
+//! Labels are read back as they were written, and changes by a person are noticed.
 
 use super::*;
 use crate::report::{Bounce, Impact, Status};
@@ -66,7 +66,7 @@ fn a_label_that_a_tool_rounded_is_not_moved_and_one_that_was_is() {
     let moved = at("1.156437");
     assert_eq!((moved.time_s, moved.std_s), (1.156_437, BY_HAND_S));
     assert!(moved.by_hand && !rounded.by_hand);
-    // What was inferred and then set to where it is seen is heard.
+    // An inferred impact that was moved to where it is seen counts as heard.
     let set = "2\t2\t5 inferred at 1.9 s\n";
     assert_eq!(marked(set, Form::Audacity)[0][0].status, Status::Heard);
 }
