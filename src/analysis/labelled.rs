@@ -115,7 +115,7 @@ fn note(marked: &[Marked]) -> Warning {
     Warning::new(WarningCode::ImpactsGiven, message)
 }
 
-/// By how much the impacts are louder than the channel at large: the mean of ln(peak/rms).
+/// Loudness of the impacts over that of the whole channel: the mean of ln(peak/rms).
 fn standing_out(stretch: &Stretch<'_>, drops: &[Vec<Marked>]) -> f64 {
     let energy: f64 = stretch.sound.samples.iter().map(|x| f64::from(x * x)).sum();
     let rms = (energy / real(stretch.sound.samples.len()).max(1.0)).sqrt();

@@ -12,7 +12,7 @@ use crate::sequence::{self, Chain, Found, is_echo_of};
 use crate::signal::sound::Sound;
 use crate::units::frame_time_s;
 
-/// Where a scene is in its recording.
+/// Range of a scene in its recording.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Bounds {
     /// Its first frame.

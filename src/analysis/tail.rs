@@ -10,7 +10,7 @@ use crate::sequence::{self, Chain};
 use crate::signal::whiten::Whitened;
 use crate::timing::{Refined, Timing};
 
-/// Where flights are shorter than this, in seconds, the sound of one impact reaches into the next.
+/// Flights below this, in seconds, are short: the sound of one impact reaches into the next.
 const SHORT_FLIGHT_S: f64 = 0.06;
 /// Impacts before the short flights that are searched again too, so that the chain has something to start from.
 const LEAD: usize = 3;
@@ -113,7 +113,7 @@ fn joined(chain: &Chain, first: usize, end: &Chain) -> Option<Chain> {
     let [first_new, second_new, ..] = end.impacts.as_slice() else {
         return None;
     };
-    // Whatever of the old chain is nearer to the first new impact than half its flight is the same impact.
+    // Old impacts nearer to the first new one than half its flight are that impact.
     let begin_s = first_new.time_s - 0.5 * (second_new.time_s - first_new.time_s);
     let early = chain.impacts.iter().take_while(|i| i.time_s < begin_s);
     let impacts: Vec<Impact> = early.chain(&end.impacts).copied().collect();

@@ -113,7 +113,7 @@ impl Detector {
 /// Strongest events of a channel that its clarity sums.
 const SPEAKERS: usize = 100;
 
-/// How clearly a recording's impacts stand out: the sum of its hundred strongest events, in nats.
+/// Clarity of a recording's impacts: the sum of its hundred strongest events, in nats.
 ///
 /// Of several channels the clearest is listened to. Channels are never averaged: two microphones hear one impact at
 /// different times, and their sum smears its onset.

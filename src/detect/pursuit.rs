@@ -98,7 +98,7 @@ impl Residue {
         found
     }
 
-    /// Where the parabola through three products is highest, from the middle one.
+    /// Vertex of the parabola through three products, from the middle one.
     fn vertex(&self, k: usize) -> f64 {
         let at = |k: usize| self.products.get(k).copied().map(f64::from);
         let (Some(left), Some(middle), Some(right)) =

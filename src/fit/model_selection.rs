@@ -195,7 +195,7 @@ fn terms(kind: ModelKind, inputs: &Inputs) -> Terms {
     }
 }
 
-/// How many parameters a model fits; that e goes with speed has to earn as much where a law says how.
+/// Number of parameters that a model fits; an e that goes with speed counts as one, also where a law fixes its course.
 fn parameters(kind: ModelKind, inputs: &Inputs) -> f64 {
     let contact = kind.has_contact() && inputs.contact_s.is_none();
     [contact, kind.has_drag(), kind.is_by_speed()]

@@ -27,7 +27,7 @@ struct Row {
     posterior: Mixture,
 }
 
-/// Where the oracle has made the model linear.
+/// Values around which the oracle has made the model linear.
 #[derive(Debug, Deserialize)]
 struct Trial {
     times_s: Vec<f64>,

@@ -205,7 +205,7 @@ struct Grid {
 struct Hill<T> {
     /// Place, value, and what was found there.
     top: (f64, f64, T),
-    /// Where the parabola through the top and its neighbours is highest; the top itself at an end of the grid.
+    /// Vertex of the parabola through the top and its neighbours; the top itself at an end of the grid.
     vertex: f64,
     lowest: f64,
     highest: f64,

@@ -47,7 +47,7 @@ pub enum Missing {
     },
     /// The recording, or the bouncing, ends long before the ball would rest.
     End {
-        /// How long the ball would have gone on, in seconds.
+        /// Time that the ball would have gone on, in seconds.
         left_s: f64,
     },
 }
@@ -181,7 +181,7 @@ fn missing(drop: &TimedDrop<'_>, series: &BounceSeries) -> Option<Missing> {
     (left_s > LARGEST_REST * whole).then_some(Missing::End { left_s })
 }
 
-/// How long the ball goes on after the last impact, at the same ratio for ever: `T·e/(1 − e)` after a last flight T.
+/// Time that the ball goes on after the last impact, at the same ratio for ever: `T·e/(1 − e)` after a last flight T.
 #[must_use]
 pub fn left_s(impacts: &[Impact], flights: &Flights, restitution: f64) -> f64 {
     let last = impacts.len().checked_sub(2).and_then(|i| flights.after(i));

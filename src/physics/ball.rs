@@ -125,7 +125,7 @@ impl Oscillator {
         ))
     }
 
-    /// How far the resting ball is pressed in.
+    /// Static compression of the resting ball.
     ///
     /// ```text
     /// (5)  x* = −mg/k = −g/ω_n²

@@ -148,7 +148,7 @@ impl BounceSeries {
         Ok(restitution.power(n) * self.time_scale_s() * std::f64::consts::PI)
     }
 
-    /// By how much (20) magnifies a relative error of e: the condition of every ΔT that comes from it.
+    /// Factor by which (20) magnifies a relative error of e: the condition of every ΔT that comes from it.
     ///
     /// ```text
     /// d ln ΔT / d ln e = n + ln e/(π² + (ln e)²)      ≈ n

@@ -38,9 +38,9 @@ pub struct Scatter {
 pub struct DropSetup {
     /// Height of release from rest, from the lowest point of the ball, > 0.
     pub height_m: f64,
-    /// How it flies.
+    /// The law of its flight.
     pub flight: FlightLaw,
-    /// How it bounces.
+    /// The law of its bounce.
     pub bounce: Bounce,
     /// Scatter of the rebounds, if any.
     pub scatter: Option<Scatter>,

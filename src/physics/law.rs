@@ -7,7 +7,7 @@ use crate::Error;
 /// `ln e ∝ v^(1/5)`.
 pub const VISCOELASTIC_POWER: f64 = 0.2;
 
-/// How restitution depends on the speed of impact.
+/// Restitution as a function of the speed of impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RestitutionLaw {

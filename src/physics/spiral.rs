@@ -64,7 +64,7 @@ impl Spiral {
         self.time(w, 1.0 + self.zeta * w)
     }
 
-    /// How far the deepest point lies below the rest position.
+    /// Depth of the deepest point below the rest position.
     pub(super) fn depth(&self, u: f64) -> f64 {
         let beyond_critical = libm::sqrt((-self.s_squared).max(0.0));
         if u <= self.zeta + beyond_critical && self.s_squared <= 0.0 {

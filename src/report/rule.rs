@@ -26,11 +26,11 @@ pub struct RuleReport {
     pub drops: Vec<Judged>,
     /// The highest predicted rebound less the lowest, of two drops or more, in metres.
     pub spread_m: Option<f64>,
-    /// How much the rule allows that to be, over as many drops as it asks for.
+    /// The most that the rule allows, over as many drops as it asks for.
     pub allowed_spread: Option<Spread>,
 }
 
-/// How far apart rebounds may be.
+/// Allowed difference between rebounds.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Spread {
@@ -61,7 +61,7 @@ pub struct Judged {
     pub outcome: Outcome,
     /// The mean rebound predicted for the rule's drop, in metres; null where e is not determined.
     pub rebound_m: Option<Estimate>,
-    /// How much single rebounds scatter about that, in metres.
+    /// Scatter of single rebounds about that, in metres.
     pub single_rebound_std_m: Option<f64>,
     /// Speed at which the ball of the rule arrives.
     pub impact_speed_m_per_s: f64,

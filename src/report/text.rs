@@ -8,7 +8,7 @@ use crate::fit::model::Budget;
 use crate::fit::model_selection::ALIKE;
 use crate::fit::{Estimate, ModelKind};
 
-/// How much is said.
+/// The level of detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Detail {
     /// The answer and the warnings.
@@ -216,7 +216,7 @@ fn ball_line(ball: &Ball) -> String {
     parts.join(", ")
 }
 
-/// Where the error of e comes from, the greatest share first; what is below a hundredth is not named.
+/// Causes of the error of e, the greatest share first, down to a hundredth.
 fn causes(budget: &Budget) -> String {
     let mut causes = [
         ("scatter of the bounces", budget.bounce),
@@ -261,7 +261,7 @@ fn table(out: &mut String, impacts: &[Impact]) {
     }
 }
 
-/// How many rejected events are written out; the JSON document has them all.
+/// Rejected events that are written out; the JSON document has them all.
 const SHOWN: usize = 8;
 
 /// The models that were compared, from the simplest up.

@@ -132,7 +132,7 @@ pub fn maximum(values: &[f64], top: usize) -> (f64, f64) {
     best
 }
 
-/// Where the parabola through three values a step apart is highest, in steps from the middle one:
+/// Vertex of the parabola through three values a step apart, in steps from the middle one:
 /// `½·(y₋ − y₊)/(y₋ − 2y + y₊)`; none where it has no top.
 pub(crate) fn vertex([left, middle, right]: [f64; 3]) -> Option<f64> {
     let curvature = left - 2.0 * middle + right;

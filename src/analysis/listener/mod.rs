@@ -64,7 +64,7 @@ pub struct Listener {
     findings: Findings,
 }
 
-/// Where things rise in the scene that goes on.
+/// Range of the rises in the scene that goes on.
 #[derive(Debug, Clone, Copy)]
 struct Rises {
     /// First frame of the scene.
@@ -192,7 +192,7 @@ impl Listener {
         self.held_from + frames(self.held[0].len())
     }
 
-    /// Where a frame that is held stands in what is held.
+    /// Index of a frame in the audio held.
     fn place(&self, frame: u64) -> usize {
         length(frame - self.held_from)
     }

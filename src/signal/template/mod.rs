@@ -70,7 +70,7 @@ impl Template {
         &self.components[0]
     }
 
-    /// Where its sound begins, in samples after its nominal onset: the constant fraction of its rise.
+    /// Onset of its sound, in samples after the nominal one: the constant fraction of its rise.
     pub(crate) fn onset(&self, rate: f64) -> f64 {
         let rise = constant_fraction::time(self.mean(), self.before, rate);
         rise.map_or(0.0, |r| r.position - real(self.before))

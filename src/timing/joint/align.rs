@@ -15,7 +15,7 @@ const NEIGHBOURS: usize = 3;
 /// The impacts in their first alignment, and the template that they give.
 #[derive(Debug, Clone)]
 pub(super) struct Aligned {
-    /// Where each is sought from now on.
+    /// Prior of each for the search from now on.
     pub priors: Vec<Prior>,
     pub places: Vec<Place>,
     pub template: Template,

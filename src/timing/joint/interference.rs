@@ -32,7 +32,7 @@ impl Joint<'_> {
         interference
     }
 
-    /// Where the window of an impact begins, in samples of the stretch.
+    /// Begin of the window of an impact, in samples of the stretch.
     pub(super) fn begin(&self, i: usize) -> f64 {
         self.places[i].position - real(self.template.before)
     }

@@ -27,7 +27,7 @@ pub(super) struct Window<'a> {
     pub noise: &'a [f64],
 }
 
-/// Where a shape is expected to begin.
+/// Range and prior of the search for a shape.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Search {
     pub prior: Prior,

@@ -49,7 +49,7 @@ const LEAD_S: f64 = 0.25;
 /// The prior on a time reaches this many standard deviations.
 const PRIOR_REACH: f64 = 4.0;
 
-/// Where an impact is expected, in samples of the sound, and the standard deviation of that.
+/// Expected position of an impact, in samples of the sound, and its standard deviation.
 #[derive(Debug, Clone, Copy)]
 struct Prior {
     position: f64,
@@ -70,7 +70,7 @@ impl Prior {
         }
     }
 
-    /// Where it is expected, with an amplitude.
+    /// The expected place, with an amplitude.
     const fn place(self, amplitude: f64) -> Place {
         Place {
             position: self.position,

@@ -36,7 +36,7 @@ pub(super) struct Started {
     pub head: usize,
     /// Samples between the detector's times.
     pub flights: Vec<f64>,
-    /// Where the detector saw each impact.
+    /// Position of each impact by the detector.
     pub priors: Vec<Prior>,
     /// Contact stretch of each impact: `(v/v₁)^(−1/5)` less its mean.
     pub contact_stretches: Vec<f64>,
