@@ -25,7 +25,7 @@ const FAINTEST: f64 = 3.0;
 /// ```
 /// Its ratio to the variance of independent samples, the overdispersion, varies slowly along the drop and is averaged over
 /// neighbours. The excess of the noise just before each impact over white noise, under the same pulls, is added: residual
-/// hum and rumble last longer than a block. The standard error is divided by the [attenuation](attenuation).
+/// hum and rumble last longer than a block. The standard error is divided by the [`attenuation`].
 pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
     let samples = heads(joint);
     let error_pairs = error_pairs(joint, &samples);
