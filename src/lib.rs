@@ -86,66 +86,32 @@ pub mod recording;
 #[cfg(feature = "lab")]
 pub mod synth;
 
+/// The stages, each once: `internals` opens them, and without it they are the crate's own.
+#[path = ""]
+mod stages {
+    pub mod analysis;
+    pub mod detect;
+    #[cfg(feature = "lab")]
+    pub mod evaluate;
+    pub mod event;
+    pub mod fit;
+    pub mod impact;
+    #[cfg(feature = "plots")]
+    pub mod plot;
+    pub mod random;
+    pub mod rules;
+    pub mod sequence;
+    pub mod signal;
+    pub mod solve;
+    pub mod statistics;
+    pub mod timing;
+    pub mod units;
+}
 #[cfg(feature = "internals")]
-pub mod analysis;
+pub use stages::*;
 #[cfg(not(feature = "internals"))]
-mod analysis;
-#[cfg(feature = "internals")]
-pub mod detect;
-#[cfg(not(feature = "internals"))]
-mod detect;
-#[cfg(all(feature = "lab", feature = "internals"))]
-pub mod evaluate;
-#[cfg(all(feature = "lab", not(feature = "internals")))]
-mod evaluate;
-#[cfg(feature = "internals")]
-pub mod event;
-#[cfg(not(feature = "internals"))]
-mod event;
-#[cfg(feature = "internals")]
-pub mod fit;
-#[cfg(not(feature = "internals"))]
-mod fit;
-#[cfg(feature = "internals")]
-pub mod impact;
-#[cfg(not(feature = "internals"))]
-mod impact;
-#[cfg(all(feature = "plots", feature = "internals"))]
-pub mod plot;
-#[cfg(all(feature = "plots", not(feature = "internals")))]
-mod plot;
-#[cfg(feature = "internals")]
-pub mod random;
-#[cfg(not(feature = "internals"))]
-mod random;
-#[cfg(feature = "internals")]
-pub mod rules;
-#[cfg(not(feature = "internals"))]
-mod rules;
-#[cfg(feature = "internals")]
-pub mod sequence;
-#[cfg(not(feature = "internals"))]
-mod sequence;
-#[cfg(feature = "internals")]
-pub mod signal;
-#[cfg(not(feature = "internals"))]
-mod signal;
-#[cfg(feature = "internals")]
-pub mod solve;
-#[cfg(not(feature = "internals"))]
-mod solve;
-#[cfg(feature = "internals")]
-pub mod statistics;
-#[cfg(not(feature = "internals"))]
-mod statistics;
-#[cfg(feature = "internals")]
-pub mod timing;
-#[cfg(not(feature = "internals"))]
-mod timing;
-#[cfg(feature = "internals")]
-pub mod units;
-#[cfg(not(feature = "internals"))]
-mod units;
+#[expect(clippy::wildcard_imports, reason = "the list above is the only one")]
+use stages::*;
 
 pub use analysis::{Listener, Settings, analyze, analyze_clearest};
 pub use error::Error;
