@@ -64,6 +64,7 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
         return Ok(Modelled::default());
     };
     let fit = &selection.fit;
+    let ball_model = selection.ball(settings.gravity_m_per_s2)?;
     let estimate = exponential(&fit.ln_restitution);
     let has_error = estimate.std_error.is_some();
     Ok(Modelled {
@@ -77,8 +78,8 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
             },
         }),
         bounce_std: has_error.then_some(fit.bounce_std),
-        ball: ball(&selection, &inputs, settings),
-        ball_model: Some(selection.ball(settings.gravity_m_per_s2)?),
+        ball: ball(&selection, &ball_model, &inputs, settings),
+        ball_model: Some(ball_model),
         budget: has_error.then_some(fit.budget),
         contact: fit.contact_s,
         drag: fit.drag_per_s2,
@@ -126,16 +127,26 @@ const fn estimate(parameter: Parameter) -> Estimate {
 }
 
 /// The ball with this restitution and contact time, if the contact time is known well enough.
-fn ball(selection: &Selection, inputs: &Inputs, settings: &Settings) -> Option<Ball> {
+fn ball(
+    selection: &Selection,
+    ball_model: &BallModel,
+    inputs: &Inputs,
+    settings: &Settings,
+) -> Option<Ball> {
     let contact = selection.fit.contact_s?;
     let ([low, high], std_s) = (contact.interval95?, contact.std?);
     if low <= 0.0 || high >= UNDETERMINED * low {
         return None;
     }
-    // (14) to (17) invert e of fast impacts.
-    let ln_fast = selection.fit.ln_restitution.value + selection.fit.ln_fast_gain;
-    let restitution = Ratio::from_ln(ln_fast).ok()?;
-    let oscillator = Oscillator::from_contact(restitution, contact.value).ok()?;
+    // (14) to (17) invert e of fast impacts, which a linear ball's own spring and damper give.
+    let (restitution, oscillator) = match ball_model.oscillator() {
+        Some(oscillator) => (oscillator.restitution().ok()?, oscillator),
+        None => {
+            let restitution = Ratio::from_ln(selection.fit.ln_restitution.value).ok()?;
+            let oscillator = Oscillator::from_contact(restitution, contact.value).ok()?;
+            (restitution, oscillator)
+        }
+    };
     let errors = ContactErrors {
         restitution: restitution.value() * selection.fit.ln_restitution.std?,
         contact_time_s: std_s,

@@ -273,7 +273,8 @@ fn a_linear_balls_contact_and_e_come_back_with_its_own_model() {
             let selection = select(&made, &Inputs::default(), Choice::Linear).unwrap();
             let [low, high] = selection.fit.contact_s.unwrap().interval95.unwrap();
             contacts += usize::from(low <= contact_s && contact_s <= high);
-            let fast = selection.fit.ln_restitution.value + selection.fit.ln_fast_gain;
+            let ball = selection.ball(9.81).unwrap().oscillator().unwrap();
+            let fast = ball.restitution().unwrap().ln();
             let std = selection.fit.ln_restitution.std.unwrap();
             fasts += usize::from((fast - e.ln()).abs() < 3.0 * std);
         }

@@ -23,8 +23,6 @@ pub struct Fit {
     pub ln_restitution: Parameter,
     /// C in seconds, if the model has it; of fast impacts for a linear ball.
     pub contact_s: Option<Parameter>,
-    /// ln e of fast impacts less ln e: above 0 for a linear ball, as gravity in contact takes more from slow ones.
-    pub ln_fast_gain: f64,
     /// K in s⁻², if the model has it.
     pub drag_per_s2: Option<Parameter>,
     /// p, if the model has it.
@@ -208,7 +206,6 @@ impl<'a> Fitted<'a> {
             drag_per_s2: next(terms.drag, values.drag_per_s2),
             exponent: next(terms.speed, 0.0),
             ln_restitution: self.parameter(0, 0.0),
-            ln_fast_gain: -self.bounces.middle_loss,
             bounce_std: self.posterior.mean_of(|n, _| n.bounce),
             timing_scale: self.posterior.mean_of(|n, _| n.timing),
             mean_speed_s: self.bounces.mean_ln_speed.exp(),

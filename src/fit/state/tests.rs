@@ -36,8 +36,8 @@ fn a_linear_ball_is_told_from_a_contact_by_exact_times() {
         };
         let (linear, contact) = (gain(ModelKind::Linear), gain(ModelKind::Contact));
         assert!(linear >= contact, "{:?}", selection.candidates);
-        let ln_e = selection.fit.ln_restitution.value + selection.fit.ln_fast_gain;
-        let off = ln_e - 0.93_f64.ln();
+        let ball = selection.ball(9.81).unwrap().oscillator().unwrap();
+        let off = ball.restitution().unwrap().ln() - 0.93_f64.ln();
         let std = selection.fit.ln_restitution.std.unwrap();
         assert!(off.abs() < 2.0 * std, "{off:e} of {std:e}");
     }

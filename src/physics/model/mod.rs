@@ -2,7 +2,7 @@
 
 use super::ends::Ends;
 use super::{
-    Bounce, FlightLaw, Hop, Leaving, LinearContact, Rebound, ReleaseRule, Restitution,
+    Bounce, FlightLaw, Hop, Leaving, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution,
     RestitutionLaw, check,
 };
 use crate::Error;
@@ -74,6 +74,15 @@ impl BallModel {
     #[must_use]
     pub const fn flight(&self) -> &FlightLaw {
         &self.flight
+    }
+
+    /// Spring and damper of a linear ball; none where restitution and contact time are given.
+    #[must_use]
+    pub const fn oscillator(&self) -> Option<Oscillator> {
+        match &self.surface {
+            Surface::Linear(contact) => Some(contact.oscillator()),
+            Surface::Given { .. } => None,
+        }
     }
 
     /// The outcome of an impact at this speed.

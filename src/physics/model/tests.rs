@@ -1,7 +1,6 @@
 //! Balls against their parts.
 
 use super::*;
-use crate::physics::Oscillator;
 
 const G: f64 = 9.81;
 
