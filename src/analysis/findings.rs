@@ -6,9 +6,8 @@ use super::scene::{SceneResult, clearest};
 use super::warnings::{self, Sounds};
 use crate::Error;
 use crate::report::{Analysis, Rejected};
+use crate::sequence::NAMED;
 
-/// Rejected events of a recording that are named, the strongest; the rest is counted.
-const NAMED: usize = 50;
 /// Impacts that are kept, of the drops with the most evidence: an hour of one drop after another. With its document
 /// each takes 1 KiB, so that these add 50 MiB to the memory of a scene.
 const MOST_IMPACTS: usize = 50_000;

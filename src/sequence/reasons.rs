@@ -43,8 +43,8 @@ const LONGEST_DELAY_S: f64 = 0.1;
 const ECHO_SHARE: f64 = 0.3;
 /// Nearer to an impact than this, an event belongs to its sound.
 const NEAR_S: f64 = 5e-3;
-/// How many events outside the drops are named, the strongest; the rest is counted.
-const NAMED: usize = 50;
+/// How many events outside the drops of a recording are named, the strongest; the rest is counted.
+pub const NAMED: usize = 50;
 /// A drop's rejected events are named from this share of its impacts' median strength on.
 const NOTABLE_SHARE: f64 = 0.3;
 
