@@ -67,7 +67,7 @@ pub fn analyze_clearest<C: AsRef<[f32]>>(
 }
 
 /// An event's reason in words.
-fn rejected(event: &sequence::Rejected) -> Rejected {
+fn rejected(event: &sequence::NonImpact) -> Rejected {
     let (reason, detail) = match event.reason {
         Reason::Echo { delay_s } => (
             RejectReason::Echo,

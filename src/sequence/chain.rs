@@ -1,6 +1,6 @@
 //! The impacts of a drop, as the tracker sees them.
 
-use super::reasons::Rejected;
+use super::reasons::NonImpact;
 use super::track::Step;
 use crate::impact::{Impact, Status};
 use crate::units::real;
@@ -14,7 +14,7 @@ pub struct Chain {
     /// The impacts in order of time; the standard error is the event's jitter, and 0 where there is none.
     pub impacts: Vec<Impact>,
     /// Strong events between its impacts that are none of them.
-    pub rejected: Vec<Rejected>,
+    pub rejected: Vec<NonImpact>,
 }
 
 impl Chain {

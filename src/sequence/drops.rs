@@ -3,7 +3,7 @@
 use super::Event;
 use super::chain::{Chain, Track};
 use super::clutter::Clutter;
-use super::reasons::{self, Reason, Rejected};
+use super::reasons::{self, NonImpact, Reason};
 use super::reassociate::reassociated;
 use super::seeds::seeds;
 use super::track::{Scene, Step, follow};
@@ -15,7 +15,7 @@ pub struct Found {
     /// The drops, in order of time.
     pub drops: Vec<Chain>,
     /// Strong events outside any drop.
-    pub rejected: Vec<Rejected>,
+    pub rejected: Vec<NonImpact>,
 }
 
 /// Evidence a chain needs to be a drop, in nats: chance rarely makes one (none in 24 recordings without a drop).
@@ -169,8 +169,8 @@ fn is_drop(chain: &Chain) -> bool {
 }
 
 /// An event's reason for being left out, with its time.
-pub(super) fn reject(event: &Event, reason: Reason) -> Rejected {
-    Rejected {
+pub(super) fn reject(event: &Event, reason: Reason) -> NonImpact {
+    NonImpact {
         time_s: event.time_s,
         reason,
     }

@@ -15,7 +15,7 @@ pub mod track;
 
 pub use chain::Chain;
 pub use drops::{Found, find, follow_again};
-pub use reasons::{NAMED, Reason, Rejected, is_echo_of};
+pub use reasons::{NAMED, NonImpact, Reason, is_echo_of};
 
 use crate::event::Event;
 

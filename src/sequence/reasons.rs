@@ -28,7 +28,7 @@ pub enum Reason {
 
 /// A strong event that is no impact.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Rejected {
+pub struct NonImpact {
     /// Seconds from the first sample.
     pub time_s: f64,
     /// Why.
