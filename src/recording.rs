@@ -12,6 +12,7 @@ use crate::rules::{Rule, judge};
 
 /// Which channel is listened to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
 pub enum Channel {
     /// The one in which impacts stand out most.
     #[default]
@@ -100,13 +101,8 @@ impl Request<'_> {
             let ball = rule.ball(settings.mass_kg, settings.diameter_m);
             judge(&rule, &analysis.drops, ball, settings.gravity_m_per_s2)
         });
-        let recording = RecordingInfo {
-            sample_rate_hz,
-            channels,
-            channel: heard.start + channel + 1,
-            duration_s: ending.duration_s,
-            encoding,
-        };
+        let recording = RecordingInfo::new(sample_rate_hz, ending.duration_s, encoding)
+            .with_channel(heard.start + channel + 1, channels);
         let report = Report::new(name.to_owned(), recording, settings, analysis);
         Ok(report.with_rule(judged.transpose()?))
     }

@@ -21,6 +21,7 @@ use crate::Error;
 
 /// A recording in memory: one vector of samples for each channel, full scale being ±1.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Recording {
     /// Samples per second of each channel.
     pub sample_rate_hz: u32,
@@ -36,6 +37,7 @@ pub struct Recording {
 
 /// What is known of a recording once it was read.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Ending {
     /// Length in seconds.
     pub duration_s: f64,
@@ -49,7 +51,8 @@ pub struct Ending {
 /// [`Error::InFile`] naming the file, with the reason: it cannot be opened, is a directory, is empty, is no recording
 /// that can be read, or holds no audio.
 pub fn read_file(path: &Path) -> Result<Recording, Error> {
-    whole(Stream::open_file(path)?).map_err(|e| e.in_file(path))
+    let read = Stream::open_file(path)?.into_recording();
+    read.map_err(|e| e.in_file(path))
 }
 
 /// Reads a stream to its end.
@@ -57,22 +60,28 @@ pub fn read_file(path: &Path) -> Result<Recording, Error> {
 /// # Errors
 /// [`Error::Wav`] or [`Error::Recording`] if it cannot be read or holds no audio; [`Error::Io`] if reading fails.
 pub fn read(source: impl Read + Send + Sync) -> Result<Recording, Error> {
-    whole(Stream::open(source)?)
+    Stream::open(source)?.into_recording()
 }
 
-fn whole(mut stream: Stream<'_>) -> Result<Recording, Error> {
-    let mut channels = vec![Vec::new(); stream.channels()];
-    let all = 0..channels.len();
-    while stream.append(&all, &mut channels)? {}
-    let (sample_rate_hz, encoding) = (stream.sample_rate_hz(), stream.encoding());
-    let lossy = stream.is_lossy();
-    Ok(Recording {
-        sample_rate_hz,
-        channels,
-        encoding,
-        lossy,
-        warnings: stream.finish()?.warnings,
-    })
+impl Stream<'_> {
+    /// Reads all channels to the end.
+    ///
+    /// # Errors
+    /// [`Error::Wav`] or [`Error::Recording`] if it holds no audio; [`Error::Io`] if reading fails.
+    pub fn into_recording(mut self) -> Result<Recording, Error> {
+        let mut channels = vec![Vec::new(); self.channels()];
+        let all = 0..channels.len();
+        while self.append(&all, &mut channels)? {}
+        let (sample_rate_hz, encoding) = (self.sample_rate_hz(), self.encoding());
+        let lossy = self.is_lossy();
+        Ok(Recording {
+            sample_rate_hz,
+            channels,
+            encoding,
+            lossy,
+            warnings: self.finish()?.warnings,
+        })
+    }
 }
 
 impl Error {

@@ -27,6 +27,7 @@ use crate::statistics::NORMAL95;
 
 /// A value with its uncertainty.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct Estimate {
     /// The value.
     pub value: f64,

@@ -62,6 +62,7 @@ pub(crate) const ALIKE: f64 = 3.0;
 
 /// A model and how well it explains the drop.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
 pub struct Candidate {
     /// Which.
     pub model: ModelKind,

@@ -33,6 +33,7 @@ use crate::Error;
     Debug, Clone, Copy, PartialEq, Eq, Hash, Default, serde::Serialize, serde::Deserialize,
 )]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum ReleaseRule {
     /// When the ball is back at `x = 0`, undeformed: the paper's rule, which (14) to (17) invert. The damper pulls the
     /// ball back just before.
@@ -53,6 +54,7 @@ pub enum Rebound {
 
 /// The end of a contact that ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Leaving {
     /// From touching to leaving, ΔT.
     pub contact_time_s: f64,

@@ -88,6 +88,7 @@ pub fn displaced_mass_fraction(sphere: Sphere, air: Air) -> Result<f64, Error> {
 
 /// A fall from rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Fall {
     /// From release to touching.
     pub time_s: f64,
@@ -97,6 +98,7 @@ pub struct Fall {
 
 /// The way up.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Rise {
     /// From leaving to the top.
     pub time_s: f64,
@@ -106,6 +108,7 @@ pub struct Rise {
 
 /// One flight, from leaving the surface to touching it again at the same height.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Hop {
     /// From leaving to touching.
     pub time_s: f64,

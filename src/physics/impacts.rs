@@ -5,6 +5,7 @@ use crate::random::SplitMix64;
 
 /// One impact and the flight that follows.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Impact {
     /// Moment of touching, from release.
     pub time_s: f64,

@@ -33,6 +33,7 @@ pub struct InputErrors {
 
 /// A restitution found from a total time, and how it leans on what it was found from.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Inversion {
     /// The root: e.
     pub restitution: Restitution,

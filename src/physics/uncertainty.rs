@@ -18,6 +18,7 @@ pub struct ContactErrors {
 ///
 /// Those of k and c hold for k/m and c/m; an error of the mass comes on top, squared and added.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct ParameterErrors {
     /// Of k, by (14).
     pub stiffness: f64,

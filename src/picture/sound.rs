@@ -17,6 +17,7 @@ const ERROR_SHARE: f64 = 0.4;
 
 /// What is kept of one channel for one sheet: its size does not grow with the recording.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Sound {
     /// The channel, counted from 1.
     pub channel: usize,
@@ -33,6 +34,7 @@ pub struct Sound {
 
 /// The samples about one onset.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Onset {
     /// Which impact of the drop, counted from 0.
     pub impact: usize,

@@ -11,6 +11,7 @@ const RARE: f64 = 0.01;
 
 /// One recording in short.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Digest {
     /// Its name.
     pub file: String,
@@ -20,6 +21,7 @@ pub struct Digest {
 
 /// The result of one recording.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub enum Found {
     /// Its drops; one at least.
     Drops(Vec<DropDigest>),
@@ -31,6 +33,7 @@ pub enum Found {
 
 /// One drop in short.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct DropDigest {
     /// Impacts heard.
     pub bounces: usize,

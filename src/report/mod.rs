@@ -93,6 +93,7 @@ impl Report {
 
 /// The recording as it was read.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
 pub struct RecordingInfo {
     /// Samples per second.
     pub sample_rate_hz: f64,
@@ -104,6 +105,30 @@ pub struct RecordingInfo {
     pub duration_s: f64,
     /// How samples are stored.
     pub encoding: String,
+}
+
+impl RecordingInfo {
+    /// A recording of one channel, of this length at this rate, whose samples are stored so.
+    #[must_use]
+    pub fn new(sample_rate_hz: f64, duration_s: f64, encoding: impl Into<String>) -> Self {
+        Self {
+            sample_rate_hz,
+            channels: 1,
+            channel: 1,
+            duration_s,
+            encoding: encoding.into(),
+        }
+    }
+
+    /// The same with the number of the channel that most drops were heard on, from 1, of so many.
+    #[must_use]
+    pub fn with_channel(self, channel: usize, channels: usize) -> Self {
+        Self {
+            channels,
+            channel,
+            ..self
+        }
+    }
 }
 
 /// The drops and events of a recording.

@@ -13,13 +13,8 @@ fn made(name: &str) -> Synthetic {
 }
 
 fn report(made: &Synthetic, settings: Settings, analysis: Analysis) -> Report {
-    let recording = RecordingInfo {
-        sample_rate_hz: f64::from(made.truth.sample_rate_hz),
-        channels: 1,
-        channel: 1,
-        duration_s: made.truth.duration_s,
-        encoding: "made here".to_owned(),
-    };
+    let sample_rate_hz = f64::from(made.truth.sample_rate_hz);
+    let recording = RecordingInfo::new(sample_rate_hz, made.truth.duration_s, "made here");
     Report::new("made.wav".to_owned(), recording, settings, analysis)
 }
 

@@ -10,6 +10,7 @@ use crate::fit::{Estimate, ModelKind};
 
 /// The level of detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Detail {
     /// The answer and the warnings.
     Answer,

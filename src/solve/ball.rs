@@ -13,6 +13,7 @@ use crate::physics::{
 
 /// The numbers of a ball; or, in the same fields, their standard errors.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Parameters {
     /// e.
     pub restitution: f64,
@@ -36,6 +37,7 @@ pub struct Parameters {
 
 /// A ball, its errors, and when it would come to rest.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SolvedBall {
     /// The ball.
     #[serde(flatten)]
@@ -50,6 +52,7 @@ pub struct SolvedBall {
 
 /// How many impacts a ball makes until it rests, counted in two ways.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Rest {
     /// By (19): constant e, rest when the rebound is no higher than the rest position is deep.
     pub impacts_by_eq19: usize,

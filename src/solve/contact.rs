@@ -9,6 +9,7 @@ use crate::report::Warning;
 
 /// One bounce, seen closely.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ContactInputs {
     /// e, between 0 and 1.
     pub restitution: f64,
@@ -23,6 +24,7 @@ pub struct ContactInputs {
 
 /// The ball of one bounce.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ContactSolution {
     /// What was given.
     pub inputs: ContactInputs,

@@ -11,6 +11,7 @@ use crate::report::Warning;
 
 /// A drop from rest, heard to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TotalTimeInputs {
     /// n, the number of impacts, ≥ 1.
     pub bounces: usize,
@@ -27,6 +28,7 @@ pub struct TotalTimeInputs {
 
 /// The ball by each equation.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct TotalTimeSolution {
     /// What was given.
     pub inputs: TotalTimeInputs,
@@ -44,6 +46,7 @@ pub struct TotalTimeSolution {
 
 /// How much the ΔT of (20), with the e of (25), leans on what it was made from.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Conditioning {
     /// `d ln ΔT / d ln e`: about n.
     pub contact_time_per_restitution: f64,

@@ -30,6 +30,7 @@ use truth::{DropTruth, Truth};
 
 /// A recording made from a scene.
 #[derive(Debug, Clone)]
+#[non_exhaustive]
 pub struct Synthetic {
     /// Samples of the first channel, full scale being ±1, as the recorder stores them.
     pub samples: Vec<f32>,

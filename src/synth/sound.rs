@@ -33,6 +33,7 @@ pub struct Sound {
 
 /// The samples of one sound.
 #[derive(Debug, Clone, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Rendered {
     /// Index in the recording of the first sample; it may lie before its start.
     pub first: i64,

@@ -6,6 +6,7 @@ use super::scene::Scene;
 
 /// What is true about a recording. Written beside it as `NAME.truth.json`.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Truth {
     /// Name of the scene.
     pub scene: String,
@@ -23,6 +24,7 @@ pub struct Truth {
 
 /// What is true about a drop. Lists hold one number for each impact within the recording.
 #[derive(Debug, Clone, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DropTruth {
     /// When the ball touched, in seconds from the first sample.
     pub impacts_s: Vec<f64>,

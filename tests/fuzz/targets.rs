@@ -366,13 +366,8 @@ fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
     while listener.push_with(|room| stream.append(&all, room))?? {}
     let ending = stream.finish()?;
     let (channel, analysis) = listener.finish()?;
-    let recording = RecordingInfo {
-        sample_rate_hz,
-        channels: all.len(),
-        channel: channel + 1,
-        duration_s: ending.duration_s,
-        encoding,
-    };
+    let recording = RecordingInfo::new(sample_rate_hz, ending.duration_s, encoding)
+        .with_channel(channel + 1, all.len());
     Ok(Report::new(
         "it".to_owned(),
         recording,

@@ -39,19 +39,7 @@ static ORIGINAL: LazyLock<Recording> = LazyLock::new(|| {
 
 /// Reads bytes in memory as a file is read.
 fn read(bytes: &[u8]) -> Result<Recording, bounce_audio::Error> {
-    let mut stream = Stream::open_seekable(Cursor::new(bytes))?;
-    let all = 0..stream.channels();
-    let mut channels = vec![Vec::new(); all.len()];
-    while stream.append(&all, &mut channels)? {}
-    let (sample_rate_hz, encoding) = (stream.sample_rate_hz(), stream.encoding());
-    let (lossy, warnings) = (stream.is_lossy(), stream.finish()?.warnings);
-    Ok(Recording {
-        sample_rate_hz,
-        channels,
-        encoding,
-        lossy,
-        warnings,
-    })
+    Stream::open_seekable(Cursor::new(bytes))?.into_recording()
 }
 
 /// e and the times of the one drop in a recording.

@@ -28,6 +28,7 @@ fn by_time_steps(zeta: f64, impact: f64, rule: ReleaseRule) -> Option<(f64, f64)
     let held = |x: f64, v: f64| match rule {
         ReleaseRule::ZeroDisplacement => -x,
         ReleaseRule::ZeroForce => -x - 2.0 * zeta * v,
+        other => panic!("no force for {other:?}"),
     };
     let step = 1e-4;
     let (mut x, mut v, mut time) = (0.0, -impact, 0.0);
@@ -84,6 +85,7 @@ fn the_closed_form_is_the_motion() {
                         let held = match rule {
                             ReleaseRule::ZeroDisplacement => got.position_m,
                             ReleaseRule::ZeroForce => at_release,
+                            other => panic!("no force for {other:?}"),
                         };
                         assert!(held.abs() < 1e-12 * impact, "{case}");
                     }

@@ -29,13 +29,7 @@ fn clicks(first_flight_s: f64, e: f64, impacts: u32) -> Vec<f32> {
 
 fn report(samples: &[f32]) -> Report {
     let settings = Settings::default();
-    let recording = RecordingInfo {
-        sample_rate_hz: RATE,
-        channels: 1,
-        channel: 1,
-        duration_s: 8.0,
-        encoding: "made here".to_owned(),
-    };
+    let recording = RecordingInfo::new(RATE, 8.0, "made here");
     let analysis = analyze(samples, RATE, &settings).unwrap();
     Report::new("clicks.wav".to_owned(), recording, settings, analysis)
 }

@@ -6,6 +6,7 @@ use crate::Error;
 
 /// How samples are stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Form {
     /// Integers of so many bits, 8 to 32.
     Integer(u16),

@@ -6,6 +6,7 @@ use crate::report::{Drop, Impact, Status};
 
 /// An impact that a label stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub struct Marked {
     /// Seconds from the first sample.
     pub time_s: f64,

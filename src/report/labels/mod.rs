@@ -23,6 +23,7 @@ use crate::Error;
 
 /// Which tool labels are for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Form {
     /// A label track of Audacity: `start TAB end TAB text` in each line.
     Audacity,
@@ -62,6 +63,7 @@ impl Form {
 
 /// A label as it stands in a file.
 #[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
 pub struct Label {
     /// Where it begins, in seconds from the first sample.
     pub time_s: f64,
