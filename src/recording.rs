@@ -86,25 +86,31 @@ impl Request<'_> {
         let heard = self.channel.of(channels)?;
         let sample_rate_hz = f64::from(stream.sample_rate_hz());
         let (encoding, lossy) = (stream.encoding(), stream.is_lossy());
-        let (channel, mut analysis, ending) = match &self.labels {
+        let (channel, analysis, ending) = match &self.labels {
             None => search(stream, &heard, &settings)?,
             Some((path, drops)) => fit(stream, &heard, &settings, drops, path)?,
         };
-        for drop in &mut analysis.drops {
-            drop.channel += heard.start;
-        }
         let repairs = ending.warnings.into_iter();
         let repairs = repairs.map(|message| Warning::new(WarningCode::Repaired, message));
-        analysis.warnings.extend(repairs);
-        analysis.warnings.extend(lossy.then(|| of_lossy(&encoding)));
+        let of_reading = repairs.chain(lossy.then(|| of_lossy(&encoding)));
         let judged = self.rule.map(|rule| {
             let ball = rule.ball(settings.mass_kg, settings.diameter_m);
             judge(&rule, &analysis.drops, ball, settings.gravity_m_per_s2)
         });
         let recording = RecordingInfo::new(sample_rate_hz, ending.duration_s, encoding)
-            .with_channel(heard.start + channel + 1, channels);
-        let report = Report::new(name.to_owned(), recording, settings, analysis);
-        Ok(report.with_rule(judged.transpose()?))
+            .with_channel(channel + 1, channels);
+        let analysis = Analysis {
+            warnings: analysis.warnings.into_iter().chain(of_reading).collect(),
+            ..analysis
+        };
+        let rule = judged.transpose()?;
+        Ok(Report::new(
+            name.to_owned(),
+            recording,
+            settings,
+            analysis,
+            rule,
+        ))
     }
 
     /// The settings, with what the rule says of the ball where they do not.
@@ -119,7 +125,7 @@ impl Request<'_> {
     }
 }
 
-/// The drops of a stream, the index of the channel that most were heard on among those heard, and how the stream ended.
+/// The drops of a stream, the index of the channel that most were heard on, and how the stream ended.
 type Heard = (usize, Analysis, Ending);
 
 fn search(
@@ -128,7 +134,7 @@ fn search(
     settings: &Settings,
 ) -> Result<Heard, Error> {
     let rate = f64::from(stream.sample_rate_hz());
-    let mut listener = Listener::new(heard.len(), rate, settings)?;
+    let mut listener = Listener::to_channels(heard.clone(), rate, settings)?;
     while listener.push_with(|room| stream.append(heard, room))?? {}
     // A file without audio is no WAV to listen to: that comes before what was not found in it.
     let ending = stream.finish()?;
@@ -147,7 +153,7 @@ fn fit(
     let mut samples = vec![Vec::new(); heard.len()];
     while stream.append(heard, &mut samples)? {}
     let ending = stream.finish()?;
-    let fitted = analyze_labelled(&samples, rate, drops, settings);
+    let fitted = analyze_labelled(&samples, heard.start, rate, drops, settings);
     let (channel, analysis) = fitted.map_err(|e| e.in_file(labels))?;
     Ok((channel, analysis, ending))
 }

@@ -20,7 +20,7 @@ use crate::timing::Timing;
 /// A drop as measured, before its estimates: those depend on the end of the recording, which is known last.
 #[derive(Debug, Clone)]
 pub(super) struct Measured {
-    /// Index of the channel that it was heard on.
+    /// Index of the channel that it was heard on, of those that were listened to.
     pub channel: usize,
     /// The impacts in order of time.
     pub impacts: Vec<report::Impact>,
@@ -36,14 +36,23 @@ pub(super) struct Measured {
     pub given: Option<Warning>,
 }
 
+/// The part of a recording that was listened to.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    /// Index of the first channel.
+    pub first_channel: usize,
+    /// The end, in seconds.
+    pub end_s: f64,
+}
+
 impl Measured {
-    /// The drop in a recording that was listened to up to `end_s`: if the ball would go on longer, there is no end and no
+    /// The drop in a recording of which so much was listened to: if the ball would go on longer, there is no end and no
     /// total time.
-    pub(super) fn until(self, end_s: f64, settings: &Settings) -> Result<Drop, Error> {
+    pub(super) fn within(self, extent: Extent, settings: &Settings) -> Result<Drop, Error> {
         let (timed, modelled) = (&self.timed, self.modelled);
         let flights = Flights::between(timed);
         let ratio = flights.ratio();
-        let cut = warnings::of_end(timed, &flights, ratio, end_s);
+        let cut = warnings::of_end(timed, &flights, ratio, extent.end_s);
         let height = match (ratio, settings.height_m) {
             (Some(ratio), Some(height_m)) => {
                 by_height(timed, &flights, ratio.value, height_m, settings)?
@@ -64,7 +73,7 @@ impl Measured {
         warnings.extend(cut);
         warnings.extend(agreement.and_then(|a| a.warning()));
         Ok(Drop {
-            channel: self.channel + 1,
+            channel: extent.first_channel + self.channel + 1,
             bounces: self.bounces,
             observed_time_s: timed.last().map_or(0.0, |i| i.time_s)
                 - timed.first().map_or(0.0, |i| i.time_s),

@@ -1,7 +1,7 @@
 //! The findings, scene by scene, and the analysis that they add up to.
 
 use super::Settings;
-use super::drop::Measured;
+use super::drop::{Extent, Measured};
 use super::scene::{SceneResult, clearest};
 use super::warnings::{self, Sounds};
 use crate::Error;
@@ -78,16 +78,16 @@ impl Findings {
         }
     }
 
-    /// The whole of it, and the channel that most of it was heard on; listening ended at `end_s`.
+    /// The whole of it, and the index of the channel that most of it was heard on, in the recording.
     ///
     /// # Errors
     /// [`Error::Argument`] for a setting out of range.
     pub(super) fn analysis(
         mut self,
-        end_s: f64,
+        extent: Extent,
         settings: &Settings,
     ) -> Result<(usize, Analysis), Error> {
-        let channel = self.channel();
+        let channel = extent.first_channel + self.channel();
         self.rejected
             .sort_by(|a, b| a.1.time_s.total_cmp(&b.1.time_s));
         let mut warnings = Vec::new();
@@ -95,7 +95,7 @@ impl Findings {
             warnings.push(self.sounds.warning());
         }
         warnings.extend(warnings::of_memory(self.left_out, self.split));
-        let drops = self.drops.into_iter().map(|m| m.until(end_s, settings));
+        let drops = self.drops.into_iter().map(|m| m.within(extent, settings));
         let analysis = Analysis {
             drops: drops.collect::<Result<_, Error>>()?,
             rejected: self.rejected.into_iter().map(|(_, r)| r).collect(),
@@ -137,7 +137,11 @@ mod tests {
             findings.drops.push(Measured::with_evidence(evidence));
         }
         findings.keep_the_surest();
-        let (_, analysis) = findings.analysis(20.0, &Settings::default()).unwrap();
+        let extent = Extent {
+            first_channel: 0,
+            end_s: 20.0,
+        };
+        let (_, analysis) = findings.analysis(extent, &Settings::default()).unwrap();
         let left: Vec<f64> = analysis.drops.iter().map(|d| d.evidence_nats).collect();
         assert_eq!(left, [30.0, 40.0]);
         assert_eq!(analysis.warnings[0].code, WarningCode::LeftOut);

@@ -1,7 +1,7 @@
 //! Drops whose impacts a person set: they are fitted as they are.
 
 use super::Settings;
-use super::drop::{Measured, fit};
+use super::drop::{Extent, Measured, fit};
 use super::stretch::Stretch;
 use crate::Error;
 use crate::impact::Impact;
@@ -19,7 +19,7 @@ const SOUND_S: f64 = 4e-3;
 /// Fits drops whose impacts are given, to the recording they are of: exactly those, nothing is searched for.
 ///
 /// The samples only tell how loud the impacts are, and when the recording ends. Of several channels that is taken on
-/// which the impacts stand out most; its index is given. Where listening starts and ends, and how impacts are timed,
+/// which the impacts stand out most; its index is given, the first being `first_channel` of the recording. Where listening starts and ends, and how impacts are timed,
 /// has no meaning here.
 ///
 /// # Errors
@@ -27,6 +27,7 @@ const SOUND_S: f64 = 4e-3;
 /// [`Error::Argument`] for a setting out of range or no channels.
 pub fn analyze_labelled<C: AsRef<[f32]>>(
     channels: &[C],
+    first_channel: usize,
     sample_rate_hz: f64,
     drops: &[Vec<Marked>],
     settings: &Settings,
@@ -52,10 +53,13 @@ pub fn analyze_labelled<C: AsRef<[f32]>>(
         .iter()
         .map(|d| measured(stretch, d, channel, settings));
     let fitted = fitted.collect::<Result<Vec<Measured>, Error>>()?;
-    let end_s = stretch.sound.end_s();
-    let drops = fitted.into_iter().map(|m| m.until(end_s, settings));
+    let extent = Extent {
+        first_channel,
+        end_s: stretch.sound.end_s(),
+    };
+    let drops = fitted.into_iter().map(|m| m.within(extent, settings));
     Ok((
-        channel,
+        first_channel + channel,
         Analysis {
             drops: drops.collect::<Result<_, Error>>()?,
             rejected: Vec::new(),

@@ -57,13 +57,14 @@ pub struct Report {
 }
 
 impl Report {
-    /// The report on a recording of this name with these settings.
+    /// The report on a recording of this name with these settings, and what a rule book says of it if one was asked.
     #[must_use]
     pub fn new(
         file: String,
         recording: RecordingInfo,
         settings: Settings,
         analysis: Analysis,
+        rule: Option<rule::RuleReport>,
     ) -> Self {
         Self {
             schema_version: SCHEMA_VERSION,
@@ -73,15 +74,9 @@ impl Report {
             drops: analysis.drops,
             rejected: analysis.rejected,
             rejected_weak: analysis.rejected_weak,
-            rule: None,
+            rule,
             warnings: analysis.warnings,
         }
-    }
-
-    /// The same with what a rule book says of its drops.
-    #[must_use]
-    pub fn with_rule(self, rule: Option<rule::RuleReport>) -> Self {
-        Self { rule, ..self }
     }
 
     /// Why there is no drop, in a sentence.

@@ -15,7 +15,7 @@ fn made(name: &str) -> Synthetic {
 fn report(made: &Synthetic, settings: Settings, analysis: Analysis) -> Report {
     let sample_rate_hz = f64::from(made.truth.sample_rate_hz);
     let recording = RecordingInfo::new(sample_rate_hz, made.truth.duration_s, "made here");
-    Report::new("made.wav".to_owned(), recording, settings, analysis)
+    Report::new("made.wav".to_owned(), recording, settings, analysis, None)
 }
 
 fn heard(name: &str, settings: Settings) -> Report {
@@ -42,7 +42,10 @@ fn documents_with_a_drop_a_rule_and_without_a_drop_are_read_back() {
     let pingpong = heard("pingpong", settings);
     let ittf = rule("ittf-ball").unwrap();
     let judged = judge(&ittf, &pingpong.drops, ittf.ball(None, None), 9.81).unwrap();
-    let back = assert_read_back(&pingpong.with_rule(Some(judged)));
+    let back = assert_read_back(&Report {
+        rule: Some(judged),
+        ..pingpong
+    });
     assert!(!back.drops.is_empty() && back.rule.is_some());
     assert_eq!(back.drops[0].model.given, [Given::Drag]);
     // The ball that the document stands for has its e at its speed.
@@ -68,7 +71,7 @@ fn a_document_of_labels_is_read_back_with_its_infinite_evidence() {
     let onsets = &made.truth.drops[0].onsets_s;
     let drops = [onsets.iter().take(8).enumerate().map(marked).collect()];
     let (rate, settings) = (f64::from(made.truth.sample_rate_hz), Settings::default());
-    let (_, analysis) = analyze_labelled(&[&made.samples], rate, &drops, &settings).unwrap();
+    let (_, analysis) = analyze_labelled(&[&made.samples], 0, rate, &drops, &settings).unwrap();
     let back = assert_read_back(&report(&made, settings, analysis));
     assert!(back.drops[0].evidence_nats.is_infinite());
     let codes: Vec<WarningCode> = back.drops[0].warnings.iter().map(|w| w.code).collect();

@@ -373,6 +373,7 @@ fn listen(input: &[u8], settings: &Settings) -> Result<Report, Error> {
         recording,
         settings.clone(),
         analysis,
+        None,
     ))
 }
 

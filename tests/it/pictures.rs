@@ -31,7 +31,7 @@ fn report(samples: &[f32]) -> Report {
     let settings = Settings::default();
     let recording = RecordingInfo::new(RATE, 8.0, "made here");
     let analysis = analyze(samples, RATE, &settings).unwrap();
-    Report::new("clicks.wav".to_owned(), recording, settings, analysis)
+    Report::new("clicks.wav".to_owned(), recording, settings, analysis, None)
 }
 
 /// The sheets of a report on these samples, heard in blocks.

@@ -4,7 +4,10 @@
 //! it ends once nothing has risen for a while, is [analyzed](super::scene) at once, and its audio is let go. A scene that
 //! outgrows the memory is analyzed as far as it goes: drops that may go on past the cut are deferred to the rest.
 
+use std::ops::Range;
+
 use super::Settings;
+use super::drop::Extent;
 use super::findings::Findings;
 use super::scene::{Bounds, hear};
 use crate::Error;
@@ -46,10 +49,12 @@ const MOST_SAMPLES_PER_S: f64 = 1_536_000.0;
 pub struct Listener {
     settings: Settings,
     sample_rate_hz: f64,
+    /// Index in the recording of the first channel that is listened to.
+    first_channel: usize,
     detector: Detector,
     gates: Vec<ActivityGate>,
     /// The frames that are listened to, counted from the start of the recording.
-    listened: std::ops::Range<u64>,
+    listened: Range<u64>,
     /// Frames pushed so far.
     position: u64,
     /// The audio just before that held: up to [`BEFORE_S`] of it.
@@ -80,7 +85,20 @@ impl Listener {
     /// [`Error::Argument`] for a setting out of range, no channels, a rate too low to listen at, or more samples a
     /// second than fit the memory.
     pub fn new(channels: usize, sample_rate_hz: f64, settings: &Settings) -> Result<Self, Error> {
+        Self::to_channels(0..channels, sample_rate_hz, settings)
+    }
+
+    /// A listener to the channels of a recording with these indices, which are those of what it finds.
+    ///
+    /// # Errors
+    /// As for [`new`](Self::new).
+    pub(crate) fn to_channels(
+        indices: Range<usize>,
+        sample_rate_hz: f64,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
         settings.check()?;
+        let channels = indices.len();
         if channels == 0 {
             return Err(Error::argument("channels", 0.0, "at least one"));
         }
@@ -108,6 +126,7 @@ impl Listener {
             findings: Findings::new(channels),
             settings: settings.clone(),
             sample_rate_hz,
+            first_channel: indices.start,
         })
     }
 
@@ -183,8 +202,11 @@ impl Listener {
             let after = frame_at(AFTER_S, self.sample_rate_hz);
             self.hear(rises.from, end.min(rises.last + after), false)?;
         }
-        let end_s = frame_time_s(end, self.sample_rate_hz);
-        self.findings.analysis(end_s, &self.settings)
+        let extent = Extent {
+            first_channel: self.first_channel,
+            end_s: frame_time_s(end, self.sample_rate_hz),
+        };
+        self.findings.analysis(extent, &self.settings)
     }
 
     /// First frame after what is held.
