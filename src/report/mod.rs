@@ -2,12 +2,17 @@
 //!
 //! Field names are those of the JSON document and a contract: more may be added, none renamed.
 
+mod ball;
 pub mod batch;
 pub mod csv;
 pub mod drops;
+mod estimates;
+mod impact;
 pub mod json;
 pub mod labels;
 mod model;
+mod numbers;
+mod rejected;
 pub mod rule;
 mod settings;
 mod table;
@@ -16,18 +21,19 @@ mod warning;
 mod wrap;
 
 pub use crate::impact::Status;
+pub use ball::{Ball, ContactSource};
+pub use estimates::{Estimates, Method, Restitution, Scatter};
+pub use impact::{Bounce, Impact};
 pub use model::{Given, Model, Parameters};
+pub(crate) use numbers::{decimals, with_error};
+pub use rejected::{RejectReason, Rejected};
 pub use settings::Settings;
-pub(crate) use table::decimals;
-pub(crate) use text::{model_name, with_error};
+pub(crate) use text::model_name;
 pub use warning::{Warning, WarningCode};
 
 use serde::{Deserialize, Deserializer, Serialize};
 
-use crate::fit::Estimate;
 use crate::fit::model::Budget;
-use crate::physics::ReleaseRule;
-use crate::words::words;
 
 /// Version of the JSON document.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -203,172 +209,6 @@ impl Drop {
             rejected: Vec::new(),
             warnings: Vec::new(),
         }
-    }
-}
-
-/// One impact and the flight after it.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Impact {
-    /// Seconds from the first sample.
-    pub time_s: f64,
-    /// Standard error of the time in seconds; null where it is inferred.
-    pub time_std_s: Option<f64>,
-    /// Peak of its sound below full scale; null where it is inferred or silent.
-    pub level_db: Option<f64>,
-    /// To the next impact, in seconds; null for the last, and where either end is inferred.
-    pub interval_s: Option<f64>,
-    /// That interval over the one before.
-    pub ratio: Option<f64>,
-    /// Height of the rebound, g·T²/8 of the interval T, in metres.
-    pub rebound_height_m: Option<f64>,
-    /// Its standard error by those of the times, in metres.
-    pub rebound_height_std_m: Option<f64>,
-    /// Speeds and e of this impact.
-    #[serde(flatten)]
-    pub bounce: Bounce,
-    /// Whether it was heard.
-    pub status: Status,
-}
-
-/// Speeds, e and the energy kept at one impact, with standard errors by those of the times.
-///
-/// Speeds are those at the ends of a flight of T less the contact time, under the drag of the selected model if it has
-/// them: without, g·T/2. Null where the flight before or after, which a number rests on, was not heard whole.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Bounce {
-    /// Speed of arrival.
-    pub impact_speed_m_per_s: Option<f64>,
-    /// Its standard error.
-    pub impact_speed_std_m_per_s: Option<f64>,
-    /// Speed of leaving.
-    pub rebound_speed_m_per_s: Option<f64>,
-    /// Its standard error.
-    pub rebound_speed_std_m_per_s: Option<f64>,
-    /// e of this impact: the second speed over the first.
-    pub restitution: Option<f64>,
-    /// Its standard error; neighbouring flights share a time.
-    pub restitution_std: Option<f64>,
-    /// Share of the energy of arrival that it leaves with, e².
-    pub energy_kept: Option<f64>,
-    /// Its standard error.
-    pub energy_kept_std: Option<f64>,
-}
-
-/// The coefficient of restitution of ball and surface.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Restitution {
-    /// e.
-    #[serde(flatten)]
-    pub estimate: Estimate,
-    /// Geometric mean of the impact speeds it was measured at.
-    pub at_speed_m_per_s: Option<f64>,
-    /// The estimate it comes from.
-    pub method: Method,
-}
-
-words! {
-    /// How e was estimated.
-    #[non_exhaustive]
-    pub enum Method {
-        /// By the model, over all impacts.
-        LeastSquares = "least_squares",
-        /// By one ratio of flights, which has no error.
-        SingleRatio = "single_ratio",
-    }
-}
-
-/// Ways to e, side by side.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Estimates {
-    /// Geometric mean of the ratios of successive flights.
-    pub flight_ratio: Option<Estimate>,
-    /// Equation (25) of the paper.
-    pub eq25: Option<Estimate>,
-    /// Equation (30) of the paper.
-    pub eq30: Option<Estimate>,
-    /// √(h1/h0) of the first impact.
-    pub first_rebound: Option<Estimate>,
-}
-
-/// How much times and bounces scatter.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Scatter {
-    /// Median standard error of the times heard, in seconds.
-    pub timing_std_s: Option<f64>,
-    /// Standard deviation of ln e from bounce to bounce, the times' errors taken out.
-    pub bounce_std: Option<f64>,
-}
-
-/// The mass-spring-damper ball.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Ball {
-    /// Contact time ΔT.
-    pub contact_time_s: f64,
-    /// Its standard error.
-    pub contact_time_std_s: f64,
-    /// k; null without a mass.
-    pub stiffness_n_per_m: Option<f64>,
-    /// Its standard error, the mass being exact.
-    pub stiffness_std_n_per_m: Option<f64>,
-    /// c; null without a mass.
-    pub damping_n_s_per_m: Option<f64>,
-    /// Its standard error, the mass being exact.
-    pub damping_std_n_s_per_m: Option<f64>,
-    /// `ω_n`.
-    pub natural_frequency_rad_per_s: f64,
-    /// Its standard error.
-    pub natural_frequency_std_rad_per_s: f64,
-    /// ζ.
-    pub damping_ratio: f64,
-    /// Its standard error.
-    pub damping_ratio_std: f64,
-    /// When contact ends.
-    pub release_rule: ReleaseRule,
-    /// Where the contact time comes from.
-    pub source: ContactSource,
-}
-
-words! {
-    /// Where a contact time comes from.
-    #[non_exhaustive]
-    pub enum ContactSource {
-        /// It was given.
-        Given = "given",
-        /// It was fitted to the intervals between impacts.
-        Intervals = "intervals",
-    }
-}
-
-/// A strong event that is no impact.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[non_exhaustive]
-pub struct Rejected {
-    /// Seconds from the first sample.
-    pub time_s: f64,
-    /// Why.
-    pub reason: RejectReason,
-    /// Why, in a sentence's part.
-    pub detail: String,
-}
-
-words! {
-    /// Why an event is no impact.
-    #[non_exhaustive]
-    pub enum RejectReason {
-        /// It follows many impacts by the same time.
-        Echo = "echo",
-        /// It is the sound of an impact nearby.
-        NearImpact = "near_impact",
-        /// It lies between impacts, where no flight ends.
-        OffSequence = "off_sequence",
-        /// It belongs to no drop.
-        NoSequence = "no_sequence",
     }
 }
 

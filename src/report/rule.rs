@@ -162,7 +162,7 @@ impl Unit {
         let (Some(std), Some(ends)) = (rebound.std_error, rebound.interval95) else {
             return format!("{value:.0} {name} (no error: a single ratio)");
         };
-        let digits = super::table::decimals(per_m * std);
+        let digits = super::decimals(per_m * std);
         let [low, high] = ends.map(|end| per_m * end);
         format!(
             "{value:.digits$} ± {:.digits$} {name} (95 %: {low:.digits$} to {high:.digits$})",

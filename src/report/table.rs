@@ -1,6 +1,6 @@
 //! The impacts of a drop as a table for a person, at most 80 columns wide.
 
-use super::{Impact, Status};
+use super::{Impact, Status, decimals};
 
 /// Two lines of heading, one with the units.
 const HEADING: [&str; 2] = [
@@ -42,19 +42,6 @@ fn fixed(value: Option<f64>, decimals: usize) -> String {
 /// An error to two digits, or to the units where those are more.
 fn two_digits(error: Option<f64>) -> String {
     fixed(error, error.map_or(0, decimals))
-}
-
-/// Decimals that show a positive number with two digits, at most eight.
-pub(crate) fn decimals(value: f64) -> usize {
-    let mut scaled = value;
-    // A value that rounds to 10 at this many decimals has its two digits.
-    (0..8)
-        .find(|_| {
-            let enough = scaled >= 9.95;
-            scaled *= 10.0;
-            enough
-        })
-        .unwrap_or(8)
 }
 
 #[cfg(test)]
