@@ -1,27 +1,20 @@
 //! Agreement of the ways to e, and the usual causes of disagreement.
 
+mod comparable;
+
 use super::Settings;
-use super::bounce::ends;
 use super::model::Modelled;
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::Flights;
 use crate::impact::Impact;
-use crate::physics::FlightLaw;
 use crate::report::{Estimates, Warning, WarningCode};
+use comparable::{first, without_contact};
 
 /// Two values disagree that differ by more than this many standard deviations of their difference. Convention: 99 % of a
 /// normal distribution.
 /// The errors count as independent; the scatter that estimates share makes that cautious.
 const DISAGREE: f64 = 2.58;
-/// Relative excess of the first rebound by unknown buoyancy and added mass, for each unit of K (s²). Derived: half of the
-/// 1.5·β that g is less, and `β = 4·K·d/(3·C_d·g)` is 0.014·K for a ball of 45 mm.
-const BUOYANCY_PER_DRAG: f64 = 0.01;
-
-/// A drag that is fitted may stand for an e that falls with speed: what it changes in the first rebound errs by this
-/// share. A tennis ball, which the air hardly slows, has half of its drag from that.
-const DRAG_DOUBT: f64 = 1.0 / 3.0;
-
 /// A value with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Value {
@@ -203,104 +196,6 @@ impl Agreement {
                  bounces make them less, so check --height and whether the ball was touched"
             ),
         }
-    }
-}
-
-/// The ratio of the flights, the contact time of the model taken out of the first and the last.
-///
-/// # Formula
-/// ```text
-/// ln e′ = ln e + (ln(1 − C/D_b) − ln(1 − C/D_a))/(b − a)
-/// ```
-fn without_contact(
-    ratio: Value,
-    timed: &[Impact],
-    flights: &Flights,
-    modelled: &Modelled,
-) -> Value {
-    let lengths = || (0..timed.len()).filter_map(|i| Some((i, flights.after(i)?)));
-    let (Some((ball, contact)), Some((a, first)), Some((b, last))) = (
-        modelled.ball_model.zip(modelled.contact),
-        lengths().next(),
-        lengths().next_back(),
-    ) else {
-        return ratio;
-    };
-    if contact.value <= 0.0 || ball.contact_in_s(last) >= last || a == b {
-        return ratio;
-    }
-    let left = |interval_s: f64| (-ball.contact_in_s(interval_s) / interval_s).ln_1p();
-    let shift = (left(last) - left(first)) / crate::units::real(b - a);
-    let value = ratio.value * shift.exp();
-    let doubt = value * shift * contact.std.unwrap_or(0.0) / contact.value;
-    Value {
-        value,
-        std: ratio.std.hypot(doubt),
-    }
-}
-
-/// e of the first impact by the height, contact and drag taken out, beside that of the model.
-///
-/// # Formula
-/// ```text
-/// e₁ = u(D_1 − C)/w(h0),   w = √(2·g·h0) without drag
-/// (σ/e₁)² = (u′·σ_D)² + (u′·σ_C)² + (σ_h/2h0)² + (σ_K·(h0/2g + T²/16))² + σ_bounce²
-/// ```
-/// and where mass and diameter are not given, what buoyancy and an e that falls with speed may do.
-fn first(
-    timed: &[Impact],
-    flights: &Flights,
-    modelled: &Modelled,
-    settings: &Settings,
-) -> Result<Option<(Value, Value)>, Error> {
-    let ball = modelled.ball_model.as_ref();
-    let ends = flights.after(0).and_then(|d| ends(ball, d));
-    let e = modelled
-        .restitution
-        .as_ref()
-        .and_then(|r| Value::of(r.estimate));
-    let (Some(ends), Some(e), Some(height_m)) = (ends, e, settings.height_m) else {
-        return Ok(None);
-    };
-    let law = law(modelled, settings)?;
-    let gravity = law.gravity_m_per_s2();
-    let leaving = 0.5 * gravity * ends.ln_leaving.exp();
-    let value = leaving / law.fall(height_m)?.landing_speed_m_per_s;
-    let std = |p: Option<crate::fit::model::Parameter>| p.and_then(|p| p.std).unwrap_or(0.0);
-    let drag_per_s2 = modelled.drag.map_or(0.0, |p| p.value);
-    // d(ln e₁)/dK: what the fall loses, and what the flight after it.
-    let by_drag = 0.5 * height_m / gravity + flights.after(0).unwrap_or(0.0).powi(2) / 16.0;
-    let unknown = match (settings.mass_kg, settings.diameter_m) {
-        (Some(_), Some(_)) => 0.0,
-        _ => drag_per_s2 * BUOYANCY_PER_DRAG.hypot(DRAG_DOUBT * by_drag),
-    };
-    let parts = [
-        ends.leaving_slope * timed[0].std_s.hypot(timed[1].std_s),
-        ends.leaving_slope * std(modelled.contact),
-        0.5 * settings.height_std_m / height_m,
-        by_drag * std(modelled.drag),
-        unknown,
-        modelled
-            .bounce_std
-            .or_else(|| flights.scatter())
-            .unwrap_or(0.0),
-    ];
-    let relative = parts.iter().fold(0.0, |sum: f64, part| sum.hypot(*part));
-    let first = Value {
-        value,
-        std: value * relative,
-    };
-    Ok(Some((first, e)))
-}
-
-/// The law of the fall: by mass and diameter, or by the drag of the model.
-fn law(modelled: &Modelled, settings: &Settings) -> Result<FlightLaw, Error> {
-    if let Some(law) = super::model::law(settings)? {
-        return Ok(law);
-    }
-    match &modelled.ball_model {
-        Some(ball) => Ok(*ball.flight()),
-        None => FlightLaw::without_air(settings.gravity_m_per_s2),
     }
 }
 

@@ -3,6 +3,7 @@
 use super::*;
 use crate::analysis::drop::{by_height, estimates};
 use crate::analysis::model::fitted;
+use crate::physics::FlightLaw;
 use crate::random::SplitMix64;
 
 const G: f64 = 9.81;
