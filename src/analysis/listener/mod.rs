@@ -4,6 +4,8 @@
 //! it ends once nothing has risen for a while, is [analyzed](super::scene) at once, and its audio is let go. A scene that
 //! outgrows the memory is analyzed as far as it goes: drops that may go on past the cut are deferred to the rest.
 
+mod held;
+
 use std::ops::Range;
 
 use super::Settings;
@@ -15,6 +17,7 @@ use crate::detect::Detector;
 use crate::detect::activity_gate::ActivityGate;
 use crate::report::Analysis;
 use crate::units::{frame_at, frame_time_s, frames, length, real, samples_in};
+use held::Held;
 
 /// Audio before the first rise that belongs to a scene, in seconds: it shows the usual level.
 const BEFORE_S: f64 = 1.0;
@@ -22,8 +25,6 @@ const BEFORE_S: f64 = 1.0;
 const AFTER_S: f64 = 1.5;
 /// Time without a rise after which a scene is over, in seconds. Derived: a flight of 3 s rises 11 m.
 const OVER_S: f64 = 3.0;
-/// Largest capacity of the buffer of earlier audio, over its length.
-const MOST_ASIDE: usize = 8;
 /// Most audio held, in bytes over all channels: with the working memory of the analysis it stays below 64 MiB.
 const HELD_BYTES: usize = 20 << 20;
 /// Least audio held of any recording, in seconds: a drop has to fit. It exceeds [`HELD_BYTES`] only above 600,000 samples a
@@ -57,12 +58,7 @@ pub struct Listener {
     listened: Range<u64>,
     /// Frames pushed so far.
     position: u64,
-    /// The audio just before that held: up to [`BEFORE_S`] of it.
-    earlier: Vec<Vec<f32>>,
-    /// The audio held, channel by channel; its first frame is `held_from`, and `judged` is where the gates stand.
-    held: Vec<Vec<f32>>,
-    held_from: u64,
-    judged: u64,
+    held: Held,
     scene: Option<Rises>,
     /// Frames that may be held.
     most_held: usize,
@@ -117,10 +113,7 @@ impl Listener {
             gates: vec![ActivityGate::new(sample_rate_hz); channels],
             listened: first..settings.end_s.map_or(u64::MAX, frame),
             position: 0,
-            earlier: vec![Vec::new(); channels],
-            held: vec![Vec::new(); channels],
-            held_from: first,
-            judged: first,
+            held: Held::new(channels, first),
             scene: None,
             most_held: budget.max(samples_in(LEAST_HELD_S, sample_rate_hz)),
             findings: Findings::new(channels),
@@ -137,7 +130,9 @@ impl Listener {
     /// [`Error::Argument`] if there are more or fewer channels than expected or they differ in length.
     pub fn push<C: AsRef<[f32]>>(&mut self, block: &[C]) -> Result<(), Error> {
         let length = block.first().map_or(0, |c| c.as_ref().len());
-        if block.len() != self.held.len() || block.iter().any(|c| c.as_ref().len() != length) {
+        if block.len() != self.held.channels.len()
+            || block.iter().any(|c| c.as_ref().len() != length)
+        {
             return Err(unlike(block.len()));
         }
         // A long block is taken in by parts, so that no more than a scene of it is held.
@@ -159,22 +154,23 @@ impl Listener {
     /// # Errors
     /// [`Error::Argument`] if it adds more to one channel than to another.
     pub fn push_with<T>(&mut self, read: impl FnOnce(&mut [Vec<f32>]) -> T) -> Result<T, Error> {
-        let before = self.held[0].len();
-        let result = read(&mut self.held);
-        let end = self.held[0].len();
-        if self.held.iter().any(|held| held.len() != end) {
-            return Err(unlike(self.held.len()));
+        let held = &mut self.held.channels;
+        let before = held[0].len();
+        let result = read(held);
+        let end = held[0].len();
+        if held.iter().any(|held| held.len() != end) {
+            return Err(unlike(held.len()));
         }
         let read = end - before;
         let within = |frame: u64| length(frame.saturating_sub(self.position)).min(read);
         let (from, to) = (within(self.listened.start), within(self.listened.end));
         self.position += frames(read);
-        for held in &mut self.held {
+        for held in held {
             held.truncate(before + to);
             held.drain(before..(before + from).min(held.len()));
         }
         let unit = self.gates[0].unit();
-        while self.unjudged() >= unit {
+        while self.held.unjudged() >= unit {
             self.judge(unit);
             self.let_go()?;
         }
@@ -186,7 +182,7 @@ impl Listener {
     /// # Errors
     /// [`Error::Argument`] if nothing of the recording is in the part that was to be listened to.
     pub fn finish(mut self) -> Result<(usize, Analysis), Error> {
-        let end = self.held_end();
+        let end = self.held.end();
         if let Some(got) = self.settings.end_s
             && self.listened.is_empty()
         {
@@ -197,7 +193,7 @@ impl Listener {
             let got = self.settings.start_s.unwrap_or(0.0);
             return Err(Error::argument("start", got, "a time within the recording"));
         }
-        self.judge(self.unjudged());
+        self.judge(self.held.unjudged());
         if let Some(rises) = self.scene.take() {
             let after = frame_at(AFTER_S, self.sample_rate_hz);
             self.hear(rises.from, end.min(rises.last + after), false)?;
@@ -209,63 +205,34 @@ impl Listener {
         self.findings.analysis(extent, &self.settings)
     }
 
-    /// First frame after what is held.
-    fn held_end(&self) -> u64 {
-        self.held_from + frames(self.held[0].len())
-    }
-
-    /// Index of a frame in the audio held.
-    fn place(&self, frame: u64) -> usize {
-        length(frame - self.held_from)
-    }
-
-    /// Frames held that the gates have not judged yet.
-    fn unjudged(&self) -> usize {
-        self.held[0].len() - self.place(self.judged)
-    }
-
     /// Has the gates judge the next frames.
     fn judge(&mut self, unit: usize) {
-        let begin = self.place(self.judged);
         let mut rises = false;
-        for (gate, held) in self.gates.iter_mut().zip(&self.held) {
+        for (gate, sound) in self.gates.iter_mut().zip(self.held.next(unit)) {
             // Each gate takes in every unit, also where another one rose.
-            rises |= gate.rises(&held[begin..begin + unit]);
+            rises |= gate.rises(sound);
         }
-        let end = self.judged + frames(unit);
         if rises {
-            let from = self.scene.map_or_else(|| self.begin(), |scene| scene.from);
-            self.scene = Some(Rises { from, last: end });
+            let before = samples_in(BEFORE_S, self.sample_rate_hz);
+            let scene = self.scene.map(|scene| scene.from);
+            let from = scene.unwrap_or_else(|| self.held.begin(before));
+            let last = self.held.judged() + frames(unit);
+            self.scene = Some(Rises { from, last });
         }
-        self.judged = end;
-    }
-
-    /// First frame of a scene in which something rises after all that was judged; what is needed of the audio before
-    /// is held from then on.
-    fn begin(&mut self) -> u64 {
-        let before = samples_in(BEFORE_S, self.sample_rate_hz);
-        let missing = before.saturating_sub(self.place(self.judged));
-        let missing = missing.min(self.earlier[0].len());
-        for (held, earlier) in self.held.iter_mut().zip(&self.earlier) {
-            held.splice(0..0, earlier[earlier.len() - missing..].iter().copied());
-        }
-        self.held_from -= frames(missing);
-        self.judged
-            .saturating_sub(frames(before))
-            .max(self.held_from)
+        self.held.judge(unit);
     }
 
     /// Lets audio go that is not needed any more, after it was analyzed if it is part of a scene.
     fn let_go(&mut self) -> Result<(), Error> {
         let span = |span_s| frame_at(span_s, self.sample_rate_hz);
         let (before, after, over) = (span(BEFORE_S), span(AFTER_S), span(OVER_S));
-        let end = self.judged;
+        let end = self.held.judged();
         match self.scene {
-            None if end - self.held_from >= before => self.set_aside(),
+            None if end - self.held.from() >= before => self.held.set_aside(),
             Some(rises) if end - rises.last >= over => {
                 self.scene = None;
                 self.hear(rises.from, rises.last + after, false)?;
-                self.forget(end - before);
+                self.held.forget(end - before);
             }
             Some(rises) if end - rises.from >= frames(self.most_held) => {
                 let final_until = self.hear(rises.from, end, true)?;
@@ -273,33 +240,11 @@ impl Listener {
                     from: final_until,
                     ..rises
                 });
-                self.forget(final_until);
+                self.held.forget(final_until);
             }
             _ => {}
         }
         Ok(())
-    }
-
-    /// Moves what was judged out of the way, in place of what was moved before. Buffers change places, so that silence
-    /// is not copied, and are no longer than has to be, so that they stay in the cache.
-    fn set_aside(&mut self) {
-        let judged = self.place(self.judged);
-        for (earlier, held) in self.earlier.iter_mut().zip(&mut self.held) {
-            std::mem::swap(earlier, held);
-            held.clear();
-            held.extend(earlier.drain(judged..));
-            // A long scene must not be room for two.
-            earlier.shrink_to(MOST_ASIDE * judged);
-        }
-        self.held_from = self.judged;
-    }
-
-    fn forget(&mut self, before: u64) {
-        let forgotten = self.place(before);
-        for held in &mut self.held {
-            held.drain(..forgotten);
-        }
-        self.held_from = before;
     }
 
     /// Analyzes a scene; gives the frame up to which the result is final.
@@ -309,8 +254,7 @@ impl Listener {
             listened_from: self.listened.start,
             cut,
         };
-        let part = self.place(from)..self.place(to);
-        let channels: Vec<&[f32]> = self.held.iter().map(|held| &held[part.clone()]).collect();
+        let channels = self.held.between(from, to);
         let reported_s = self
             .findings
             .reported_after(frame_time_s(from, self.sample_rate_hz));

@@ -169,7 +169,7 @@ fn what_is_held_does_not_grow() {
     for _ in 0..6 {
         for block in samples.chunks(8_192) {
             listener.push(&[block]).unwrap();
-            longest = longest.max(listener.held[0].len());
+            longest = longest.max(listener.held.channels[0].len());
         }
     }
     assert!(longest < samples_in(12.5, RATE_HZ), "{longest}");
@@ -182,7 +182,7 @@ fn a_stream_of_more_than_two_days_is_listened_to() {
     let mut late = listener();
     // As it stands after silence of that length, which is too long to be pushed.
     late.listened.start = first;
-    (late.position, late.held_from, late.judged) = (first, first, first);
+    (late.position, late.held) = (first, Held::new(1, first));
     let (late, early) = (
         heard(late, &samples, 8_192),
         heard(listener(), &samples, 8_192),
