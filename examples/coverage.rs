@@ -19,7 +19,8 @@ use bounce_audio::fit::ModelKind;
 use bounce_audio::fit::model_selection::{Choice, Inputs, Selection, select};
 use bounce_audio::impact::Impact;
 use bounce_audio::physics::{
-    FlightLaw, LinearContact, Oscillator, Rebound, ReleaseRule, Restitution,
+    BallModel, Bounce, FlightLaw, Oscillator, Rebound, ReleaseRule, Restitution, RestitutionLaw,
+    VISCOELASTIC_POWER,
 };
 use bounce_audio::random::SplitMix64;
 use bounce_audio::units::real;
@@ -86,52 +87,43 @@ impl Ball {
             _ => None,
         }
     }
-}
 
-/// How a ball bounces.
-enum Bouncing {
-    Alike(f64),
-    Linear(LinearContact),
-    Viscoelastic { loss: f64, at_speed: f64 },
-}
-
-impl Bouncing {
-    /// None if no ball of this kind has this e.
-    fn of(ball: Ball, ln_e: f64, first_speed: f64) -> Option<Self> {
-        Some(match ball {
-            Ball::Linear { contact_s } => {
-                let ball = Oscillator::from_contact(Restitution::from_ln(ln_e).unwrap(), contact_s);
-                let rule = ReleaseRule::ZeroDisplacement;
-                Self::Linear(LinearContact::new(ball.unwrap(), GRAVITY, rule).unwrap())
-            }
-            Ball::Viscoelastic => {
-                // y − ⅗y² = 1 − e at the first impact.
-                let root = (1.0 - 2.4 * (1.0 - ln_e.exp())).sqrt();
-                Self::Viscoelastic {
-                    loss: root.is_finite().then_some((1.0 - root) / 1.2)?,
-                    at_speed: first_speed,
-                }
-            }
-            _ => Self::Alike(ln_e),
-        })
-    }
-
-    /// ln e at a speed, and the contact in seconds where it depends on that; none if the ball stays.
-    fn at(&self, speed: f64) -> Option<(f64, Option<f64>)> {
-        match self {
-            Self::Alike(ln_e) => Some((*ln_e, None)),
-            Self::Linear(linear) => match linear.rebound(speed).unwrap() {
-                Rebound::Leaves(leaving) => {
-                    Some((leaving.restitution.ln(), Some(leaving.contact_time_s)))
-                }
-                Rebound::Stays => None,
+    /// The ball with this e, of fast impacts or at the first; none if no ball of this kind has it.
+    fn model(self, ln_e: f64, first_speed: f64) -> Option<BallModel> {
+        let drag_per_s2 = match self {
+            Self::Drag { per_s2 } => per_s2,
+            _ => 0.0,
+        };
+        let flight = FlightLaw::with_drag(GRAVITY, drag_per_s2).unwrap();
+        let e = Restitution::from_ln(ln_e).unwrap();
+        let bounce = match self {
+            Self::Linear { contact_s } => Bounce::Linear {
+                ball: Oscillator::from_contact(e, contact_s).unwrap(),
+                release_rule: ReleaseRule::ZeroDisplacement,
             },
-            Self::Viscoelastic { loss, at_speed } => {
-                let y = loss * (speed / at_speed).powf(0.2);
-                Some((((0.6 * y - 1.0) * y).ln_1p(), None))
-            }
-        }
+            Self::Viscoelastic => Bounce::Given {
+                restitution: viscoelastic(e.value(), first_speed)?,
+                contact_time_s: 0.0,
+            },
+            _ => Bounce::Given {
+                restitution: RestitutionLaw::Constant(e),
+                contact_time_s: self.contact_s().unwrap_or(0.0),
+            },
+        };
+        Some(BallModel::new(flight, bounce).unwrap())
     }
+}
+
+/// The viscoelastic sphere with this e at this speed: `y − ⅗y² = 1 − e` there, `y ∝ v^(1/5)`; none for an e that the series
+/// does not reach.
+fn viscoelastic(e: f64, speed: f64) -> Option<RestitutionLaw> {
+    let root = (1.0 - 2.4 * (1.0 - e)).sqrt();
+    let y = root.is_finite().then_some((1.0 - root) / 1.2)?;
+    let gamma1 = y / speed.powf(VISCOELASTIC_POWER);
+    Some(RestitutionLaw::Viscoelastic {
+        gamma1,
+        gamma2: 0.6 * gamma1 * gamma1,
+    })
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -147,31 +139,27 @@ impl Cell {
     /// The times without their errors for a scatter of each bounce, and ln e at the mean speed; none if the ball comes to
     /// rest.
     fn times(&self, ln_e: f64, first_s: f64, scatter: &[f64]) -> Option<(Vec<f64>, f64)> {
-        let law = match self.ball {
-            Ball::Drag { per_s2 } => {
-                FlightLaw::with_terminal_speed(GRAVITY, GRAVITY / per_s2.sqrt())
-            }
-            _ => FlightLaw::without_air(GRAVITY),
-        }
-        .unwrap();
         let first_speed = 0.5 * GRAVITY * first_s;
-        let bounce = Bouncing::of(self.ball, ln_e, first_speed)?;
+        let ball = self.ball.model(ln_e, first_speed)?;
         let mut times = vec![0.0];
         let (mut at_s, mut speed, mut ln_speeds) = (0.0, first_speed, 0.0);
         let mut contact_s = self.ball.contact_s().unwrap_or(0.0);
         for scatter in scatter {
-            let hop = law.hop(speed).unwrap();
+            let hop = ball.flight().hop(speed).unwrap();
             at_s += contact_s + hop.time_s;
             times.push(at_s);
-            let (ln_of_bounce, longer_s) = bounce.at(hop.landing_speed_m_per_s)?;
-            contact_s = longer_s.unwrap_or(contact_s);
-            ln_speeds += hop.landing_speed_m_per_s.ln();
-            speed = hop.landing_speed_m_per_s * (ln_of_bounce + scatter).exp();
+            let arriving = hop.landing_speed_m_per_s;
+            let Rebound::Leaves(leaving) = ball.rebound(arriving).unwrap() else {
+                return None;
+            };
+            contact_s = leaving.contact_time_s;
+            ln_speeds += arriving.ln();
+            speed = arriving * (leaving.restitution.ln() + scatter).exp();
         }
-        let hop = law.hop(speed).unwrap();
+        let hop = ball.flight().hop(speed).unwrap();
         times.push(at_s + contact_s + hop.time_s);
         let mean_speed = (ln_speeds / real(scatter.len())).exp();
-        Some((times, bounce.at(mean_speed)?.0))
+        Some((times, ball.restitution(mean_speed)?.ln()))
     }
 
     fn is_in_reach(&self) -> bool {
