@@ -30,6 +30,7 @@ pub use rejected::{RejectReason, Rejected};
 pub use settings::Settings;
 pub(crate) use text::model_name;
 pub use warning::{Warning, WarningCode};
+pub(crate) use wrap::wrapped_to;
 
 use serde::{Deserialize, Deserializer, Serialize};
 

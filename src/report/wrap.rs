@@ -1,27 +1,26 @@
 //! Lines no wider than a terminal.
 
+use textwrap::{Options, WordSeparator, WordSplitter, WrapAlgorithm};
+
 /// Columns of a terminal.
 const WIDTH: usize = 80;
 
 /// The text with line feeds for spaces where a line would get wider than a terminal; those that follow the first are
 /// indented by `indent` columns. A word that is wider by itself stays whole.
 pub(super) fn wrapped(text: &str, indent: usize) -> String {
-    let mut out = String::with_capacity(text.len());
-    let mut column = 0;
-    for (i, word) in text.split(' ').enumerate() {
-        let width = word.chars().count();
-        if i > 0 && column + 1 + width > WIDTH {
-            out.push('\n');
-            out.push_str(&" ".repeat(indent));
-            column = indent;
-        } else if i > 0 {
-            out.push(' ');
-            column += 1;
-        }
-        out.push_str(word);
-        column += width;
-    }
-    out
+    wrapped_to(text, indent, WIDTH)
+}
+
+/// The same for lines of another width.
+pub(crate) fn wrapped_to(text: &str, indent: usize, width: usize) -> String {
+    let indent = " ".repeat(indent);
+    let options = Options::new(width)
+        .subsequent_indent(&indent)
+        .break_words(false)
+        .word_separator(WordSeparator::AsciiSpace)
+        .word_splitter(WordSplitter::NoHyphenation)
+        .wrap_algorithm(WrapAlgorithm::FirstFit);
+    textwrap::fill(text, options)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A solution for a person: the ball first, one column per equation, then how safe the numbers are.
 
 use super::{ContactSolution, GivenErrors, Parameters, SolvedBall, TotalTimeSolution, numbers};
-use crate::report::Warning;
+use crate::report::{Warning, wrapped_to};
 
 /// The table of the ball by (25), by (30) and with the contact time given, then what to know about it.
 #[must_use]
@@ -181,21 +181,10 @@ const WIDTH: usize = 100;
 fn safety(warnings: &[Warning]) -> String {
     let mut out = "\nHow safe are these numbers?\n".to_owned();
     for warning in warnings {
-        let mut length = WIDTH;
-        let mut first = true;
-        for word in warning.message.split_whitespace() {
-            let word_length = word.chars().count();
-            // A percent sign stays with its number.
-            if length + 1 + word_length > WIDTH && !word.starts_with('%') {
-                out += if first { "  - " } else { "\n    " };
-                (length, first) = (4, false);
-            } else {
-                out.push(' ');
-                length += 1;
-            }
-            out += word;
-            length += word_length;
-        }
+        // A percent sign stays with its number.
+        let message = warning.message.replace(" %", "\u{a0}%");
+        let paragraph = wrapped_to(&format!("  - {message}"), 4, WIDTH);
+        out += &paragraph.replace('\u{a0}', " ");
         out.push('\n');
     }
     out
