@@ -238,20 +238,9 @@ fn level_db(stretch: &Stretch<'_>, time_s: f64) -> Option<f64> {
 impl Measured {
     /// A drop of one impact of which nothing is known but its evidence.
     pub(super) fn with_evidence(evidence_nats: f64) -> Self {
-        let impact = report::Impact {
-            time_s: 1.0,
-            time_std_s: None,
-            level_db: None,
-            interval_s: None,
-            ratio: None,
-            rebound_height_m: None,
-            rebound_height_std_m: None,
-            bounce: report::Bounce::default(),
-            status: report::Status::Heard,
-        };
         Self {
             channel: 0,
-            impacts: vec![impact],
+            impacts: vec![report::Impact::heard(1.0)],
             evidence_nats,
             timed: Vec::new(),
             bounces: 0,

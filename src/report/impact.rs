@@ -29,6 +29,24 @@ pub struct Impact {
     pub status: Status,
 }
 
+#[cfg(test)]
+impl Impact {
+    /// An impact of which nothing is known but that it was heard then.
+    pub(crate) fn heard(time_s: f64) -> Self {
+        Self {
+            time_s,
+            time_std_s: None,
+            level_db: None,
+            interval_s: None,
+            ratio: None,
+            rebound_height_m: None,
+            rebound_height_std_m: None,
+            bounce: Bounce::default(),
+            status: Status::Heard,
+        }
+    }
+}
+
 /// Speeds, e and the energy kept at one impact, with standard errors by those of the times.
 ///
 /// Speeds are those at the ends of a flight of T less the contact time, under the drag of the selected model if it has

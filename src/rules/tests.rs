@@ -5,26 +5,19 @@ use crate::fit::Estimate;
 use crate::fit::ModelKind;
 use crate::physics::{FlightLaw, LinearContact, Rebound, Restitution};
 use crate::report::rule::{Judged, Outcome};
-use crate::report::{self, Bounce, Drop, Impact, Method, Scatter, Status};
+use crate::report::{self, Bounce, Drop, Impact, Method, Scatter};
 
 const G: f64 = 9.81;
 
 /// A drop with this e and error, heard from 0.5 to 3 m/s.
 fn heard(e: f64, std: f64) -> Drop {
     let impact = |speed: f64| Impact {
-        time_s: 0.0,
-        time_std_s: None,
-        level_db: None,
-        interval_s: None,
-        ratio: None,
-        rebound_height_m: None,
-        rebound_height_std_m: None,
         bounce: Bounce {
             impact_speed_m_per_s: Some(speed),
             restitution: Some(e),
             ..Bounce::default()
         },
-        status: Status::Heard,
+        ..Impact::heard(0.0)
     };
     Drop {
         impacts: [3.0, 1.5, 0.5].map(impact).to_vec(),
