@@ -20,9 +20,6 @@ const PAST_END: f64 = 2.0;
 const LONGEST_REGION_S: f64 = 4.0;
 /// Greatest distance of a rejected event from an impact found anew that is the same, in seconds.
 const SAME_S: f64 = 1e-3;
-/// Greatest distance of the early impacts of a new chain from those of the old one that it continues, in seconds: the jitter
-/// of a thud.
-const SAME_CHAIN_S: f64 = 3e-3;
 
 /// A chain after its end was sought again.
 #[derive(Debug)]
@@ -38,7 +35,7 @@ pub(super) struct Followed<'a> {
 /// The chain with its end followed by the sound of its impacts, if that finds more.
 pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
     let sound = stretch.whitened(&chain);
-    let Some((first, region_s)) = region(&chain, stretch.sound.end_s()) else {
+    let Some(region_s) = region(&chain, stretch.sound.end_s()) else {
         return Followed {
             chain,
             sound,
@@ -56,7 +53,7 @@ pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
     let found = template.and_then(|t| matched::events(&sound, &t, shortest_s, region_s));
     let longer = found.and_then(|late| {
         let end = sequence::follow_again(&late, &known(&chain, &timed))?;
-        joined(&chain, first, &end)
+        joined(&chain, &end)
     });
     match longer {
         Some(chain) => Followed {
@@ -89,8 +86,8 @@ fn known(chain: &Chain, timed: &[Impact]) -> Vec<(f64, f64)> {
     times.collect()
 }
 
-/// The first impact of the late part, and the time from just before it to well past the end.
-fn region(chain: &Chain, recording_end_s: f64) -> Option<(usize, (f64, f64))> {
+/// The time from just before the first impact of the late part to well past the end.
+fn region(chain: &Chain, recording_end_s: f64) -> Option<(f64, f64)> {
     let flight = |i: usize| chain.impacts[i + 1].time_s - chain.impacts[i].time_s;
     let flights = chain.impacts.len().checked_sub(1)?;
     let short = (0..flights)
@@ -105,11 +102,11 @@ fn region(chain: &Chain, recording_end_s: f64) -> Option<(usize, (f64, f64))> {
     let end_s = (last_s + PAST_END * left_s + SHORT_FLIGHT_S)
         .min(recording_end_s)
         .min(start_s + LONGEST_REGION_S);
-    Some((first, (start_s, end_s)))
+    Some((start_s, end_s))
 }
 
 /// The early part of the old chain and the new late part, if more was heard that way.
-fn joined(chain: &Chain, first: usize, end: &Chain) -> Option<Chain> {
+fn joined(chain: &Chain, end: &Chain) -> Option<Chain> {
     let [first_new, second_new, ..] = end.impacts.as_slice() else {
         return None;
     };
@@ -117,13 +114,11 @@ fn joined(chain: &Chain, first: usize, end: &Chain) -> Option<Chain> {
     let begin_s = first_new.time_s - 0.5 * (second_new.time_s - first_new.time_s);
     let early = chain.impacts.iter().take_while(|i| i.time_s < begin_s);
     let impacts: Vec<Impact> = early.chain(&end.impacts).copied().collect();
-    let mut pairs = impacts.iter().zip(&chain.impacts).take(first);
-    let kept = pairs.all(|(a, b)| (a.time_s - b.time_s).abs() < SAME_CHAIN_S);
     let near = |time_s: f64| impacts.iter().any(|i| (i.time_s - time_s).abs() < SAME_S);
     let rejected = chain.rejected.iter().filter(|r| !near(r.time_s));
     let joined = Chain {
         rejected: rejected.copied().collect(),
         impacts,
     };
-    (kept && joined.heard() > chain.heard()).then_some(joined)
+    (joined.heard() > chain.heard()).then_some(joined)
 }
