@@ -52,7 +52,7 @@ pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
     let shortest_s = flights.fold(f64::INFINITY, f64::min);
     let found = template.and_then(|t| matched::events(&sound, &t, shortest_s, region_s));
     let longer = found.and_then(|late| {
-        let end = sequence::follow_again(&late, &known(&chain, &timed))?;
+        let end = sequence::follow_again(&late, &known(&timed))?;
         joined(&chain, &end)
     });
     match longer {
@@ -69,20 +69,12 @@ pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
     }
 }
 
-/// A heard impact is this near its match, in seconds.
-const HEARD_OFF_S: f64 = 0.4e-3;
-/// An inferred impact is off by this share of its flight.
-const INFERRED_OFF: f64 = 0.02;
+/// Greatest distance of an impact from its match, in seconds.
+const MATCH_WITHIN_S: f64 = 0.4e-3;
 
-/// The times of all impacts of a chain, those heard refined, and how far off they may be.
-fn known(chain: &Chain, timed: &[Impact]) -> Vec<(f64, f64)> {
-    let mut last_s = f64::NEG_INFINITY;
-    let times = chain.impacts.iter().zip(timed).map(|(seen, timed)| {
-        let off_s = (INFERRED_OFF * (seen.time_s - last_s)).min(INFERRED_OFF);
-        last_s = seen.time_s;
-        let off_s = if timed.is_heard() { HEARD_OFF_S } else { off_s };
-        (timed.time_s, off_s)
-    });
+/// The times of impacts, and how far off they may be.
+fn known(timed: &[Impact]) -> Vec<(f64, f64)> {
+    let times = timed.iter().map(|i| (i.time_s, MATCH_WITHIN_S));
     times.collect()
 }
 
