@@ -4,7 +4,7 @@
 //! searched again for the sound of its impacts, and the chain is followed there anew by the same physics.
 
 use super::stretch::Stretch;
-use crate::detect::matched;
+use crate::detect::{SEPARATION_S, matched};
 use crate::impact::Impact;
 use crate::sequence::{self, Chain};
 use crate::signal::whiten::Whitened;
@@ -18,8 +18,6 @@ const LEAD: usize = 3;
 const PAST_END: f64 = 2.0;
 /// Longest region that is searched, in seconds.
 const LONGEST_REGION_S: f64 = 4.0;
-/// Greatest distance of a rejected event from an impact found anew that is the same, in seconds.
-const SAME_S: f64 = 1e-3;
 
 /// A chain after its end was sought again.
 #[derive(Debug)]
@@ -106,7 +104,11 @@ fn joined(chain: &Chain, end: &Chain) -> Option<Chain> {
     let begin_s = first_new.time_s - 0.5 * (second_new.time_s - first_new.time_s);
     let early = chain.impacts.iter().take_while(|i| i.time_s < begin_s);
     let impacts: Vec<Impact> = early.chain(&end.impacts).copied().collect();
-    let near = |time_s: f64| impacts.iter().any(|i| (i.time_s - time_s).abs() < SAME_S);
+    let near = |time_s: f64| {
+        impacts
+            .iter()
+            .any(|i| (i.time_s - time_s).abs() < SEPARATION_S)
+    };
     let rejected = chain.rejected.iter().filter(|r| !near(r.time_s));
     let joined = Chain {
         rejected: rejected.copied().collect(),

@@ -24,7 +24,7 @@ pub const HOP_S: f64 = 0.25e-3;
 /// Lowest frequency listened to, in Hz. Convention: the octave above holds most of a basketball's thud.
 const LOWEST_HZ: f64 = 40.0;
 /// Two events are at least this far apart, in seconds. Convention: a quarter of the shortest audible flight.
-const SEPARATION_S: f64 = 1e-3;
+pub const SEPARATION_S: f64 = 1e-3;
 /// Weakest event kept, in nats: white noise offers a hundred of these a second, and the sequence needs weak ones.
 const WEAKEST: f64 = 3.5;
 /// Length of the stretches whose ordinary level is learnt together, in seconds: long against a flight, short against a
