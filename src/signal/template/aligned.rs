@@ -4,8 +4,6 @@ use super::Template;
 use crate::signal::smooth::smoothed;
 use crate::units::{real, samples_in};
 
-/// The template is at least this long after the onset, in seconds.
-pub(crate) const SHORTEST_S: f64 = 4e-3;
 /// Energy is judged over this time either way, in seconds.
 const ENERGY_S: f64 = 4e-3;
 
@@ -66,7 +64,7 @@ impl Template {
             .iter()
             .zip(&noise)
             .rposition(|(e, n)| e * power > loud * n)?;
-        shape.truncate((last + reach).max(before + samples_in(SHORTEST_S, rate)));
+        shape.truncate(last + reach);
         let noise = noise[..shape.len()].iter().map(|n| n / power).collect();
         Some(Self::new(shape, noise, before))
     }

@@ -3,7 +3,7 @@
 use super::{BEFORE_S, LEAD_S, LONGEST_S, Place, Prior};
 use crate::impact::Impact;
 use crate::signal::interpolate::shifted;
-use crate::signal::template::aligned::{Cut, SHORTEST_S};
+use crate::signal::template::aligned::Cut;
 use crate::signal::whiten::Whitened;
 use crate::units::{real, samples_in, whole};
 
@@ -137,7 +137,7 @@ fn longest(flights: &[f64], rate: f64, before: usize) -> usize {
     sorted.sort_by(|a, b| b.total_cmp(a));
     let third = sorted.get(2).or(sorted.last()).copied().unwrap_or(0.0);
     let alone = whole(0.9 * third - real(before));
-    alone.clamp(samples_in(SHORTEST_S, rate), samples_in(LONGEST_S, rate))
+    alone.min(samples_in(LONGEST_S, rate))
 }
 
 /// Standard deviation of the detector's time of a sound like this, in samples.
