@@ -58,15 +58,14 @@ impl TimeWalk {
 const FEWEST: usize = 5;
 const FEWEST_LINEAR: usize = 8;
 const FEWEST_SQUARE: usize = 12;
-/// Shares of the greatest value at which a leading edge ends. Two that follow one another have to agree: the longest edge
-/// has the most information, but the crests of loud impacts may be clipped.
+/// Shares of the greatest value at which a leading edge ends. Each is matched from the places of the one before: the longest
+/// edge has the most information, but the crests of loud impacts may be clipped.
 const SHARES: [f64; 3] = [1.0, 0.8, 0.6];
 /// Standard deviations by which the edges used stand out: those of all impacts first, then the clear ones alone, as faint
 /// ones may match at a wrong crest.
 const CLEAR: [f64; 2] = [f64::NEG_INFINITY, 10.0];
-/// Standard errors by which a time walk differs from 0 at least, and those of two edges from each other at most.
+/// Standard errors by which a time walk differs from 0 at least.
 const SIGNIFICANT: f64 = 4.0;
-const AGREEING: f64 = 3.0;
 /// Least scatter of the edges of single impacts, in seconds: modes do not begin quite alike.
 const SCATTER_S: f64 = 3e-6;
 /// Robust averaging ends once the curve moves by no more than this share of its own standard error (convention) …
@@ -123,32 +122,32 @@ fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, 
     Some((joint, walk))
 }
 
-/// The time walk, if slow impacts match significantly late by two leading edges, of all impacts or of the clear ones.
+/// The time walk, if slow impacts match significantly late by a leading edge, of all impacts or of the clear ones.
 fn significant_walk(joint: &Joint<'_>) -> Option<TimeWalk> {
     let by = |clear| {
         let mut pairs = SHARES.windows(2);
-        pairs.find_map(|pair| agreeing_walk(joint, clear, pair))
+        pairs.find_map(|pair| walk_by_edges(joint, clear, pair))
     };
     CLEAR.into_iter().find_map(by)
 }
 
-/// The time walk by the edges that end at two shares, of impacts that stand out by `clear`; none where they disagree.
-fn agreeing_walk(joint: &Joint<'_>, clear: f64, shares: &[f64]) -> Option<TimeWalk> {
+/// The time walk by the edges that end at the shorter of two shares, of impacts that stand out by `clear`; none where it is
+/// not significant.
+fn walk_by_edges(joint: &Joint<'_>, clear: f64, shares: &[f64]) -> Option<TimeWalk> {
     let &[longer, shorter] = shares else {
         return None;
     };
     let mut begins = LeadingEdges::of(joint, longer, clear)?;
-    let longer = fitted(joint, &begins.aligned())?;
     // The longer edges give positions from which the shorter ones cannot match at another crest.
+    begins.aligned();
     begins.length = edge_length(joint, shorter)?;
     let places = begins.aligned();
-    let shorter = fitted(joint, &places)?;
+    let walk = fitted(joint, &places)?;
     let known = joint.started.contact_stretches.iter().zip(&places);
     let stretches = known.filter_map(|(&u, place)| place.map(|_| u));
     let range = stretches.fold((0.0_f64, 0.0_f64), |(a, b), u| (a.min(u), b.max(u)));
-    let ((long, long_std), (short, short_std)) = (longer.whole(range), shorter.whole(range));
-    let agree = (short - long).abs() < AGREEING * short_std.hypot(long_std);
-    (agree && short < -SIGNIFICANT * short_std).then_some(shorter)
+    let (shift, std) = walk.whole(range);
+    (shift < -SIGNIFICANT * std).then_some(walk)
 }
 
 /// Position of the leading edge less that of the match, as a function of contact stretch, by robust least squares.
