@@ -99,7 +99,7 @@ fn noise_excess(joint: &Joint<'_>, samples: &[Sample]) -> f64 {
             count += 1;
         }
     }
-    if count < FEWEST_STRETCHES {
+    if count == 0 {
         return 0.0;
     }
     // Of white noise the mean scatters by √(2/count) around 1.
@@ -112,8 +112,6 @@ fn noise_excess(joint: &Joint<'_>, samples: &[Sample]) -> f64 {
     }
 }
 
-/// Fewest stretches of noise that an excess is measured from.
-const FEWEST_STRETCHES: usize = 4;
 /// Greatest excess of one stretch that counts: a knock in it is no property of the noise.
 const MOST_EXCESS: f64 = 1e4;
 
