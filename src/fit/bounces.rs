@@ -1,6 +1,6 @@
 //! The observation of ln e by each bounce, linearised in the times and in the parameters of the model.
 
-use super::restitution_law::{self, Flight, Loss, TrialLaw};
+use super::trial_law::{self, Flight, Loss, TrialLaw};
 use crate::impact::Impact;
 use crate::physics::priors::Known;
 
@@ -80,10 +80,10 @@ impl Bounces {
         values: Values,
     ) -> Option<Self> {
         let law = TrialLaw::of(trial_s, terms, values)?;
-        let flights = restitution_law::flights(trial_s, values, &law)?;
+        let flights = trial_law::flights(trial_s, values, &law)?;
         let arriving = &flights[..flights.len() - 1];
         let speeds: Vec<f64> = arriving.iter().map(|f| f.ends.ln_landing).collect();
-        let mean_ln_speed = restitution_law::mean(speeds.iter().copied());
+        let mean_ln_speed = trial_law::mean(speeds.iter().copied());
         let (lost, middle_loss) = law.losses(values, &speeds, mean_ln_speed);
         let ln_restitution = values.ln_fast_restitution + middle_loss;
         let off_s: Vec<f64> = observed

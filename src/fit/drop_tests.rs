@@ -1,8 +1,8 @@
 //! The fit on drops whose e, contact, drag and noises are known.
 
 use super::bounces::{ImpactLaw, Terms};
-use super::kind::ModelKind;
 use super::model::fit;
+use super::model_kind::ModelKind;
 use super::model_selection::{Choice, Inputs, select};
 use crate::impact::Impact;
 use crate::physics::priors::Known;

@@ -6,19 +6,19 @@
 mod banded;
 pub mod bounces;
 pub mod flights;
-pub mod kind;
 mod least_squares;
 pub mod model;
+pub mod model_kind;
 pub mod model_selection;
 mod noise;
 pub mod outlier;
 mod posterior;
 pub mod random_effects;
-mod restitution_law;
 mod state;
 pub mod total_time;
+mod trial_law;
 
-pub use kind::{BallParameters, ModelKind};
+pub use model_kind::{BallParameters, ModelKind};
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};

@@ -1,4 +1,7 @@
 //! The kinds of models that are compared, and the ball that each makes of its parameters.
+//!
+//! A new kind stands here and among the candidates of [`model_selection`](super::model_selection), and where e or contact
+//! depend on the speed in a new way also in `physics::RestitutionLaw` and, for the fit, in `trial_law`.
 
 use super::bounces::ImpactLaw;
 use crate::Error;

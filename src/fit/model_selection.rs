@@ -2,8 +2,8 @@
 //! intervals, compared by their evidence.
 
 use super::bounces::Terms;
-use super::kind::{BallParameters, ModelKind};
 use super::model::{Fit, Fitted, Parameter, Rival};
+use super::model_kind::{BallParameters, ModelKind};
 use crate::Error;
 use crate::impact::Impact;
 use crate::physics::BallModel;

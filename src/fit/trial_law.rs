@@ -1,4 +1,7 @@
-//! Restitution laws of the impact speed: constant, linear with gravity in contact, or viscoelastic.
+//! Trial laws: contact and loss at each impact by trial values of the parameters, with derivatives for the linear fit.
+//!
+//! All impacts are alike, of a linear ball with gravity in contact, or of viscoelastic spheres;
+//! [`RestitutionLaw`](crate::physics::RestitutionLaw) has the formulas of the last.
 
 use super::bounces::{ImpactLaw, Terms, Values};
 use crate::physics::ends::Ends;

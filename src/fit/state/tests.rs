@@ -1,7 +1,7 @@
 //! Rounds of linear fits on times of a known ball.
 
 use super::*;
-use crate::fit::kind::ModelKind;
+use crate::fit::model_kind::ModelKind;
 use crate::fit::model_selection::{Choice, Inputs, select};
 use crate::fit::posterior::Posterior;
 use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
