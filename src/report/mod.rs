@@ -15,7 +15,6 @@ mod numbers;
 mod rejected;
 pub mod rule;
 mod settings;
-mod table;
 pub mod text;
 mod warning;
 mod wrap;
@@ -169,7 +168,7 @@ pub struct Drop {
     pub scatter: Scatter,
     /// Which model the answer rests on.
     pub model: Model,
-    /// Stiffness and damping; null until a contact time is known.
+    /// The ball as spring and damper; null unless its contact time is known within a factor of 3.
     pub ball: Option<Ball>,
     /// Where the error of e comes from, as shares that make 1; null where e has none.
     pub budget: Option<Budget>,

@@ -2,9 +2,10 @@
 
 mod answer;
 mod models;
+mod table;
 
 use super::wrap::wrapped;
-use super::{Impact, Rejected, Report, Warning, rule, table};
+use super::{Impact, Rejected, Report, Warning, rule};
 use answer::{answer, ways};
 pub(crate) use models::model_name;
 use models::models;

@@ -1,6 +1,6 @@
 //! The impacts of a drop as a table for a person, at most 80 columns wide.
 
-use super::{Impact, Status, decimals};
+use crate::report::{Impact, Status, decimals};
 
 /// Two lines of heading, one with the units.
 const HEADING: [&str; 2] = [
