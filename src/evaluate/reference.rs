@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::Error;
-use crate::report::labels::read_audacity;
+use crate::report::labels::{Form, read};
 
 /// What is true of a recording.
 #[derive(Debug, Clone, PartialEq, Default, Deserialize)]
@@ -72,7 +72,7 @@ impl Reference {
     /// # Errors
     /// [`Error::Line`] naming a line that is no label.
     pub fn from_labels(text: &str) -> Result<Self, Error> {
-        let labels = read_audacity(text)?;
+        let labels = read(text.as_bytes(), Form::Audacity)?;
         let mut onsets_s: Vec<f64> = labels.iter().map(|l| l.time_s).collect();
         onsets_s.sort_by(f64::total_cmp);
         let drop = ReferenceDrop {

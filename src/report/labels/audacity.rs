@@ -14,7 +14,7 @@ pub(super) fn write(labels: &[(f64, String)]) -> String {
 ///
 /// # Errors
 /// [`Error::Line`] naming a line that does not begin with a time.
-pub fn read(text: &str) -> Result<Vec<Label>, Error> {
+pub(super) fn read(text: &str) -> Result<Vec<Label>, Error> {
     let lines = text.lines().zip(1..);
     // A line that starts with a backslash holds the frequencies of the label above it.
     lines

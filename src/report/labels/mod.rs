@@ -15,7 +15,6 @@ mod impacts;
 mod instants;
 mod text_grid;
 
-pub use audacity::read as read_audacity;
 pub use impacts::{Marked, drops};
 
 use super::Drop;
