@@ -1,7 +1,6 @@
 //! Random effects: the mean of many measurements, their spread beyond the errors that they claim, and outliers by robust
 //! statistics.
 
-use serde::Serialize;
 use statrs::distribution::{ChiSquared, ContinuousCDF};
 
 use super::student;
@@ -15,7 +14,7 @@ const FALSE_ALARMS: f64 = 0.05;
 pub type Measurement = (f64, f64);
 
 /// The random-effects mean of measurements, and their spread.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RandomEffects {
     /// Number of measurements.
     pub count: usize,

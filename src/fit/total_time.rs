@@ -1,7 +1,5 @@
 //! Restitution from height, number of bounces and total time: equations (25) and (30).
 
-use serde::Serialize;
-
 use super::flights::Flights;
 use super::{Estimate, student_975};
 use crate::Error;
@@ -27,8 +25,7 @@ pub struct TimedDrop<'a> {
 }
 
 /// Why there is no total time.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[serde(rename_all = "snake_case", tag = "reason")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Missing {
     /// The first flight is too short for this height: impacts before it were not recorded.
