@@ -6,10 +6,11 @@ use crate::fit::Estimate;
 use crate::fit::model::{Budget, Parameter};
 use crate::fit::model_selection::{Inputs, Selection, select};
 use crate::impact::Impact;
+use crate::physics;
 use crate::physics::priors::{CONTACT_RELATIVE_STD, Known};
 use crate::physics::{
     Air, BallModel, ContactErrors, DRAG_RELATIVE_STD, FlightLaw, Oscillator, ParameterErrors,
-    ReleaseRule, Restitution as Ratio, Sphere,
+    ReleaseRule, Sphere,
 };
 use crate::report::{
     Ball, ContactSource, Given, Method, Model, Parameters, Restitution, Warning, WarningCode,
@@ -142,7 +143,8 @@ fn ball(
     let (restitution, oscillator) = match ball_model.oscillator() {
         Some(oscillator) => (oscillator.restitution().ok()?, oscillator),
         None => {
-            let restitution = Ratio::from_ln(selection.fit.ln_restitution.value).ok()?;
+            let restitution =
+                physics::Restitution::from_ln(selection.fit.ln_restitution.value).ok()?;
             let oscillator = Oscillator::from_contact(restitution, contact.value).ok()?;
             (restitution, oscillator)
         }

@@ -19,8 +19,8 @@ const UNHEARD: f64 = 0.3;
 const LONGEST_CONTACT: f64 = 0.9;
 /// Longest C of a linear ball, in shortest intervals: with more, gravity in contact hardly lets it leave.
 const LONGEST_LINEAR_CONTACT: f64 = 0.45;
-/// Greatest ln e of a linear ball: at 0 it has no damping.
-const LEAST_LN_LOSS: f64 = -1e-4;
+/// Greatest ln e of fast impacts: at 0 a linear ball has no damping.
+const GREATEST_LN_FAST: f64 = -1e-4;
 /// Greatest K in s⁻²: that of a balloon.
 const GREATEST_DRAG: f64 = 100.0;
 
@@ -78,7 +78,7 @@ impl<'a> State<'a> {
         Values {
             contact_s: values.contact_s.clamp(0.0, self.greatest_contact_s()),
             drag_per_s2: values.drag_per_s2.clamp(0.0, GREATEST_DRAG),
-            ln_fast_restitution: values.ln_fast_restitution.min(LEAST_LN_LOSS),
+            ln_fast_restitution: values.ln_fast_restitution.min(GREATEST_LN_FAST),
         }
     }
 
@@ -184,7 +184,7 @@ impl<'a> State<'a> {
             moves_s.push(solved_s - trial_s);
             in_stds.push((solved_s - trial_s) / variance.sqrt());
         }
-        let ln_fast = (solution.values[0] - bounces.middle_loss).min(LEAST_LN_LOSS);
+        let ln_fast = (solution.values[0] - bounces.middle_loss).min(GREATEST_LN_FAST);
         let mut moves = [0.0; MOST_PARAMETERS];
         moves[0] = ln_fast - self.values.ln_fast_restitution;
         let [contact, drag] = self.terms.places();
