@@ -5,8 +5,8 @@
 pub struct Event {
     /// Seconds from the start of the recording.
     pub time_s: f64,
-    /// Standard deviation of the time in seconds: a quarter of a millisecond for a click, a millisecond or two for a
-    /// thud.
+    /// Standard deviation of the time in seconds: of a rise in energy an eighth of a millisecond for a click and a
+    /// millisecond or two for a thud, of a match 0.05 ms or more.
     pub jitter_s: f64,
     /// Evidence that something struck, in nats: the log-likelihood ratio of a rise in energy, summed over bands, or of a
     /// match of z standard deviations, z²/2.

@@ -1,4 +1,6 @@
-//! Counts and quantities with units: the only place where samples become seconds.
+//! Counts as numbers, spans in seconds as counts of samples, and quantities with units as a person writes them.
+//!
+//! Times of a recording become samples of a stretch in [`Sound`](crate::signal::sound::Sound).
 
 use crate::Error;
 
@@ -30,7 +32,7 @@ pub fn whole(x: f64) -> usize {
     x.round() as usize
 }
 
-/// Number of whole samples in a span, rounded to nearest; a negative span or NaN is empty. The one place where seconds become samples.
+/// Number of whole samples in a span, rounded to nearest; a negative span or NaN is empty.
 #[must_use]
 pub fn samples_in(span_s: f64, sample_rate_hz: f64) -> usize {
     whole(span_s * sample_rate_hz)

@@ -1,4 +1,4 @@
-//! The whole way from samples to drops: detect, sequence, refine, fit.
+//! The whole way from samples to drops: `detect`, `sequence`, `timing`, `fit`.
 //!
 //! A [`Listener`] takes a recording of any length block by block; [`analyze`] gives it one that is in memory.
 

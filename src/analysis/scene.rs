@@ -1,4 +1,4 @@
-//! A stretch of sound in which something happens: which channel hears it best, and the drops in it.
+//! A scene, the part of a recording from a first rise to a last: which channel hears it best, and the drops in it.
 
 use super::drop::{self, Measured};
 use super::stretch::Stretch;

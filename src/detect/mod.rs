@@ -2,7 +2,8 @@
 //!
 //! [`activity_gate`] passes on the parts of a recording in which something happens. A
 //! [filter bank](crate::signal::filterbank) splits those into octaves, [`change_point`] measures the evidence that the
-//! energy went up at each moment, [`peaks`] picks the moments.
+//! energy went up at each moment, [`peaks`] picks the moments. Once a drop's template is known, [`matched`] finds the events
+//! that it explains, under the ring of others too.
 
 pub mod activity_gate;
 pub mod change_point;

@@ -1,4 +1,4 @@
-//! The ball as mass, spring and damper: equations (4), (5), (9), (13) to (17), (26), (27) and (29).
+//! The ball as mass, spring and damper: equations (2), (4), (5), (9), (12) to (17), (26), (27) and (29).
 
 use std::f64::consts::PI;
 

@@ -82,7 +82,7 @@ pub const LITTLE_DRAG_PER_S2: Known = Known {
 };
 
 /// p of balls at large, `e ∝ v^(−p)`: e of a tennis ball falls by 6 % where the speed grows by the factor 2.7, that of a
-/// plastic one by 25 %.
+/// plastic one by 22 %.
 pub const SPEED_EXPONENT: Known = Known {
     value: 0.05,
     std: 0.1,

@@ -1,4 +1,4 @@
-//! The report as a table: one row per impact.
+//! The report as CSV: one row per impact. [`drops`](super::drops) has the CSV of many reports, one row per drop.
 
 use super::Report;
 

@@ -1,4 +1,4 @@
-//! Many reports as one table: a row per drop, and one for a recording that has none.
+//! Many reports as one CSV: a row per drop, and one for a recording that has none.
 
 use super::csv::{cell, quoted};
 use super::{Drop, Report, Warning};

@@ -12,7 +12,7 @@ pub struct Rejected {
     pub time_s: f64,
     /// Why.
     pub reason: RejectReason,
-    /// Why, in a sentence's part.
+    /// Why, for people: a part of a sentence.
     pub detail: String,
 }
 

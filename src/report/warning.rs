@@ -1,4 +1,4 @@
-//! Warnings: a word for programs and a sentence for people.
+//! Warnings: a word for programs and a sentence for people, which is made where the cause is known.
 
 use serde::{Deserialize, Serialize};
 

@@ -12,9 +12,9 @@ use crate::report::{Estimates, Warning, WarningCode};
 use comparable::{first, without_contact};
 
 /// Two values disagree that differ by more than this many standard deviations of their difference. Convention: 99 % of a
-/// normal distribution.
-/// The errors count as independent; the scatter that estimates share makes that cautious.
+/// normal distribution. The errors count as independent; the scatter that estimates share makes that cautious.
 const DISAGREE: f64 = 2.58;
+
 /// A value with its standard error.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Value {
