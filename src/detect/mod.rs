@@ -88,6 +88,8 @@ impl Detector {
             self.add_events(&segment, inside, &mut found);
             start = end;
         }
+        // The sound of a peak may begin before that of the peak before it.
+        found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         found
     }
 
@@ -123,4 +125,50 @@ pub fn clarity(events: &[Event]) -> f64 {
     let mut strengths: Vec<f64> = events.iter().map(|e| e.strength).collect();
     strengths.sort_by(|a, b| b.total_cmp(a));
     strengths.iter().take(SPEAKERS).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::SplitMix64;
+    use crate::units::narrow;
+
+    /// Clicks and slow thumps at random, in noise.
+    fn clicks_and_thumps(seed: u64) -> Vec<f32> {
+        const RATE: f64 = 8_000.0;
+        let mut random = SplitMix64::new(seed);
+        let mut samples: Vec<f64> = (0..16_000).map(|_| 1e-4 * random.normal()).collect();
+        for i in 0..40 {
+            let (hz, decay_s) = if i % 2 == 0 {
+                (70.0, 0.03)
+            } else {
+                (2_500.0, 2e-3)
+            };
+            let onset_s = 2.0 * random.uniform();
+            let height = 0.1 * random.normal().exp();
+            for (k, sample) in samples.iter_mut().enumerate() {
+                let t = real(k) / RATE - onset_s;
+                if t > 0.0 {
+                    *sample +=
+                        height * (-t / decay_s).exp() * (std::f64::consts::TAU * hz * t).sin();
+                }
+            }
+        }
+        samples.into_iter().map(narrow).collect()
+    }
+
+    #[test]
+    fn events_are_in_order_of_time_also_where_a_slow_sound_begins_before_a_quick_one() {
+        let detector = Detector::new(8_000.0).unwrap();
+        for seed in 0..20 {
+            let sound = Sound {
+                samples: &clicks_and_thumps(seed),
+                sample_rate_hz: 8_000.0,
+                start_s: 0.0,
+            };
+            let events = detector.events(&sound);
+            assert!(events.len() > 20, "{}", events.len());
+            assert!(events.is_sorted_by_key(|e| e.time_s), "seed {seed}");
+        }
+    }
 }
