@@ -9,7 +9,6 @@ use crate::report::Warning;
 
 /// One bounce, seen closely.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
 pub struct ContactInputs {
     /// e, between 0 and 1.
     pub restitution: f64,

@@ -33,7 +33,6 @@ use serde::Serialize;
 
 /// What both ways to the ball share.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
 pub struct Surroundings {
     /// Acceleration of free fall. Default 9.81.
     pub gravity_m_per_s2: f64,
@@ -56,7 +55,6 @@ impl Default for Surroundings {
 /// Standard errors of the inputs. Where none is given the results have no errors either; where some are, the others
 /// count as exact.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
-#[non_exhaustive]
 pub struct GivenErrors {
     /// Of the total time.
     pub total_time_s: Option<f64>,

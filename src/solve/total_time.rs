@@ -11,7 +11,6 @@ use crate::report::Warning;
 
 /// A drop from rest, heard to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-#[non_exhaustive]
 pub struct TotalTimeInputs {
     /// n, the number of impacts, ≥ 1.
     pub bounces: usize,
