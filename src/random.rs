@@ -37,6 +37,11 @@ impl SplitMix64 {
         let radius = libm::sqrt(-2.0 * libm::log(self.uniform()));
         radius * libm::cos(std::f64::consts::TAU * self.uniform())
     }
+
+    /// A factor whose logarithm has mean 0 and this standard deviation.
+    pub fn factor(&mut self, ln_std: f64) -> f64 {
+        libm::exp(ln_std * self.normal())
+    }
 }
 
 #[cfg(test)]

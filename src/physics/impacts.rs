@@ -57,9 +57,18 @@ impl Iterator for Impacts {
     type Item = Impact;
 
     fn next(&mut self) -> Option<Impact> {
+        self.next_with(1.0)
+    }
+}
+
+impl Impacts {
+    /// The next impact, with the speed after it multiplied by a positive factor: a joint of tiles, a seam, another surface.
+    ///
+    /// The factor comes on top of the ball's own scatter. However great, the ball never leaves faster than it hit.
+    pub fn next_with(&mut self, factor: f64) -> Option<Impact> {
         let touch = self.next.take()?;
         self.left -= 1;
-        let departure = self.depart(touch.speed);
+        let departure = self.depart(touch.speed, factor);
         let mut impact = Impact {
             time_s: touch.time.s(),
             impact_speed_m_per_s: touch.speed,
@@ -84,9 +93,7 @@ impl Iterator for Impacts {
         }
         Some(impact)
     }
-}
 
-impl Impacts {
     /// Starts with the fall. Everything in the setup was checked.
     pub(super) fn new(setup: &DropSetup, ball: BallModel) -> Self {
         let fall = setup.flight.fall_from(setup.height_m);
@@ -104,11 +111,14 @@ impl Impacts {
     }
 
     /// How the ball leaves after touching at this speed; `None` if it stays.
-    fn depart(&mut self, speed: f64) -> Option<Departure> {
+    fn depart(&mut self, speed: f64, factor: f64) -> Option<Departure> {
         let Rebound::Leaves(leaving) = self.ball.rebound_at(speed) else {
             return None;
         };
-        let rebound = self.scattered(leaving.speed_m_per_s, speed);
+        let mut rebound = self.scattered(leaving.speed_m_per_s, speed) * factor;
+        if factor > 1.0 {
+            rebound = rebound.min(speed);
+        }
         let rests = self.ball.rests(&leaving, rebound);
         Some(Departure {
             speed: if rests { 0.0 } else { rebound },

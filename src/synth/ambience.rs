@@ -2,16 +2,18 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::babble::Words;
 use super::bursts::{Knocks, Steps};
 use super::scene::within;
 use super::sound::{exponential, product, rms};
-use super::{bursts, decibels};
+use super::taps::Taps;
+use super::{babble, bursts, decibels};
 use crate::Error;
 use crate::random::SplitMix64;
 use crate::units::real;
 
 /// What is heard besides impacts. Levels in dB of full scale at the recorder's input; minus infinity is none.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Noise {
     /// White noise, rms. Each channel has its own. Default −70.
@@ -32,6 +34,10 @@ pub struct Noise {
     pub knocks: Option<Knocks>,
     /// Steps or ticks at regular times.
     pub steps: Option<Steps>,
+    /// Words that fall like a ball: syllables faster and faster, and fainter.
+    pub words: Option<Words>,
+    /// Rows of sounds that are alike: taps, claps, keys, a game.
+    pub taps: Vec<Taps>,
 }
 
 impl Default for Noise {
@@ -46,6 +52,8 @@ impl Default for Noise {
             babble_db: f64::NEG_INFINITY,
             knocks: None,
             steps: None,
+            words: None,
+            taps: Vec::new(),
         }
     }
 }
@@ -80,7 +88,9 @@ impl Noise {
         within("tone_hz", self.tone_hz, 1.0..=1e6, "1 Hz or more")?;
         within("hum_hz", self.hum_hz, 1.0..=1e6, "1 Hz or more")?;
         self.knocks.map_or(Ok(()), |knocks| knocks.check())?;
-        self.steps.map_or(Ok(()), |steps| steps.check())
+        self.steps.map_or(Ok(()), |steps| steps.check())?;
+        self.words.map_or(Ok(()), Words::check)?;
+        self.taps.iter().try_for_each(Taps::check)
     }
 
     /// Noise of one channel. `own` differs from channel to channel, `shared` is the same in all: hum, voices and knocks
@@ -100,13 +110,19 @@ impl Noise {
         self.add_hum(rate, &mut shared, &mut steady);
         let mut bursts = vec![0.0; count];
         if self.babble_db > f64::NEG_INFINITY {
-            super::babble::add(decibels(self.babble_db), rate, &mut shared, &mut bursts);
+            babble::add(decibels(self.babble_db), rate, &mut shared, &mut bursts);
         }
         if let Some(knocks) = self.knocks {
             bursts::add_knocks(knocks, rate, &mut shared, &mut bursts);
         }
         if let Some(steps) = self.steps {
             bursts::add_steps(steps, rate, &mut shared, &mut bursts);
+        }
+        if let Some(words) = self.words {
+            babble::add_words(words, rate, &mut shared, &mut bursts);
+        }
+        for taps in &self.taps {
+            taps.add(rate, &mut shared, &mut bursts);
         }
         Ambience { steady, bursts }
     }

@@ -1,8 +1,89 @@
 //! Sounds like speech.
 
+use serde::{Deserialize, Serialize};
+
+use super::decibels;
+use super::scene::within;
 use super::sound::rms;
+use crate::Error;
 use crate::random::SplitMix64;
 use crate::units::{real, samples_in};
+
+/// Words of four to nine voiced syllables, each of which begins hard and comes sooner after the one before, and fainter, by
+/// a share of its own: speech that keeps the time of a dead ball.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Words {
+    /// rms of the loudest syllable of a word in dB of full scale.
+    pub level_db: f64,
+    /// From the end of a word to the start of the next, in seconds.
+    pub every_s: f64,
+}
+
+impl Words {
+    pub(super) fn check(self) -> Result<(), Error> {
+        within("level_db", self.level_db, -200.0..=40.0, "-200 to 40")?;
+        within("every_s", self.every_s, 1e-2..=1e3, "10 ms or more")
+    }
+}
+
+/// What a syllable is like.
+#[derive(Debug, Clone, Copy)]
+struct Manner {
+    voiced: bool,
+    /// In this share of its time it swells, and fades over the rest.
+    attack_share: f64,
+    /// Loudness of the hiss that it begins with, as of a t or a k; a pulse of the voice is 1.
+    burst: f64,
+}
+
+/// Shortest interval between syllables of a word, in seconds.
+const SHORTEST_SYLLABLE_S: f64 = 0.04;
+
+/// The hiss that a syllable begins with has faded to 1/e after this, in seconds.
+const BURST_S: f64 = 3e-3;
+
+/// Adds words. Intervals begin with 0.15 to 0.5 s and shrink by 0.6 to 0.95 with 2 % of scatter; levels fall as they do.
+pub(super) fn add_words(words: Words, rate: f64, rng: &mut SplitMix64, samples: &mut [f64]) {
+    let manner = Manner {
+        voiced: true,
+        attack_share: 0.02,
+        burst: 0.5,
+    };
+    let mut start = samples_in(words.every_s * rng.uniform(), rate);
+    while start < samples.len() {
+        let syllables = samples_in(4.0 + 6.0 * rng.uniform(), 1.0).min(9);
+        let ratio = 0.6 + 0.35 * rng.uniform();
+        let mut interval_s = 0.15 + 0.35 * rng.uniform();
+        let mut level = decibels(words.level_db);
+        for _ in 0..syllables {
+            let count = samples_in(0.9 * interval_s, rate);
+            let end = (start + count).min(samples.len());
+            if start >= end {
+                break;
+            }
+            let syllable = syllable(end - start, rate, manner, rng);
+            add_at_level(level, &syllable, &mut samples[start..end]);
+            start += samples_in(interval_s, rate);
+            interval_s = (interval_s * ratio * rng.factor(0.02)).max(SHORTEST_SYLLABLE_S);
+            level *= ratio * rng.factor(0.2);
+        }
+        start += samples_in(words.every_s, rate);
+    }
+}
+
+/// Adds a sound whose rms is a level.
+fn add_at_level(level: f64, sound: &[f64], samples: &mut [f64]) {
+    let loudness = rms(sound);
+    let gain = if loudness > 0.0 {
+        level / loudness
+    } else {
+        0.0
+    };
+    for (x, y) in samples.iter_mut().zip(sound) {
+        *x += gain * y;
+    }
+}
 
 /// Speech-like bursts: syllables of 80 to 300 ms, two thirds of them voiced at a gliding pitch of 90 to 220 Hz, the
 /// others hissed, each through three formants of its own, with pauses in between.
@@ -11,22 +92,18 @@ pub(super) fn add(level: f64, rate: f64, rng: &mut SplitMix64, samples: &mut [f6
     while start < samples.len() {
         let length = samples_in(0.08 + 0.22 * rng.uniform(), rate);
         let end = (start + length).min(samples.len());
-        let syllable = syllable(end - start, rate, rng);
-        let loudness = rms(&syllable);
-        let gain = if loudness > 0.0 {
-            level / loudness
-        } else {
-            0.0
+        let manner = Manner {
+            voiced: rng.uniform() < 0.67,
+            attack_share: 0.1,
+            burst: 0.0,
         };
-        for (x, y) in samples[start..end].iter_mut().zip(&syllable) {
-            *x += gain * y;
-        }
+        let syllable = syllable(end - start, rate, manner, rng);
+        add_at_level(level, &syllable, &mut samples[start..end]);
         start = end + samples_in(0.02 + 0.15 * rng.uniform() * rng.uniform(), rate);
     }
 }
 
-fn syllable(count: usize, rate: f64, rng: &mut SplitMix64) -> Vec<f64> {
-    let voiced = rng.uniform() < 0.67;
+fn syllable(count: usize, rate: f64, manner: Manner, rng: &mut SplitMix64) -> Vec<f64> {
     let (pitch_hz, glide) = (90.0 + 130.0 * rng.uniform(), 0.4 * rng.uniform() - 0.2);
     let formants = [
         250.0 + 500.0 * rng.uniform(),
@@ -40,16 +117,22 @@ fn syllable(count: usize, rate: f64, rng: &mut SplitMix64) -> Vec<f64> {
             phase += pitch_hz * (1.0 + glide * share) / rate;
             let pulse = if phase >= 1.0 { 1.0 } else { 0.0 };
             phase -= pulse;
-            let excitation = if voiced {
+            let excitation = if manner.voiced {
                 pulse + 0.01 * rng.normal()
             } else {
                 0.2 * rng.normal()
             };
-            // A syllable swells in a tenth of its time and fades over the rest.
-            let swell = (10.0 * share).min(1.0) * libm::cos(0.5 * std::f64::consts::PI * share);
+            let swell = (share / manner.attack_share).min(1.0)
+                * libm::cos(0.5 * std::f64::consts::PI * share);
             excitation * swell
         })
         .collect();
+    if manner.burst > 0.0 {
+        for (x, i) in source.iter_mut().zip(0_u32..) {
+            let faded = libm::exp(-f64::from(i) / (BURST_S * rate));
+            *x += manner.burst * faded * rng.normal();
+        }
+    }
     for hz in formants.into_iter().filter(|hz| *hz < 0.45 * rate) {
         resonate(&mut source, hz, 90.0, rate);
     }

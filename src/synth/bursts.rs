@@ -99,7 +99,8 @@ pub(super) fn add_steps(steps: Steps, rate: f64, rng: &mut SplitMix64, samples: 
     }
 }
 
-fn add_burst(
+/// Adds a sound whose peak has a level.
+pub(super) fn add_burst(
     modes: &[Mode],
     contact_s: f64,
     at_s: f64,

@@ -1,7 +1,7 @@
 //! The impacts of a scene's drops, from the physics.
 
 use super::room::travel_s;
-use super::scene::{BounceScene, DropScene, Mode, Scene, within};
+use super::scene::{BounceChange, BounceScene, DropScene, Mode, Scene, within};
 use super::sound::Sound;
 use crate::Error;
 use crate::physics::{
@@ -9,6 +9,7 @@ use crate::physics::{
     ReleaseRule, Restitution, RestitutionLaw, Scatter, Sphere,
 };
 use crate::random::SplitMix64;
+use crate::units::real;
 
 /// Flights shorter than this are not made: the drop ends there.
 const SHORTEST_FLIGHT_S: f64 = 1e-3;
@@ -28,6 +29,12 @@ pub(super) struct Strike {
     pub(super) arrival_s: f64,
     /// e before scatter.
     pub(super) nominal: f64,
+    /// Whether this bounce alone does not go by the law of the others.
+    pub(super) odd: bool,
+    /// Whether e is another from here on.
+    pub(super) changed: bool,
+    /// Standard deviation of ln level of each mode.
+    pub(super) level_scatter: f64,
     /// Its sound at the loudness that its speed gives.
     pub(super) sound: Sound,
 }
@@ -40,24 +47,50 @@ pub(super) struct Dropped {
     pub(super) strikes: Vec<Strike>,
 }
 
-/// Drops the ball of a scene: all its impacts, those outside the recording too. Their sounds are followed for so long
+/// Drops all balls of a scene, one of several copies with the random numbers of the first.
+///
+/// # Errors
+/// [`Error::Argument`] naming what is out of range.
+pub(super) fn all(
+    scene: &Scene,
+    followed_s: f64,
+    rng: &mut SplitMix64,
+) -> Result<Vec<Dropped>, Error> {
+    let mut dropped = Vec::new();
+    for one in &scene.drops {
+        let before = *rng;
+        let (count, every_s) = one.copies.map_or((1, 0.0), |c| (c.count, c.every_s));
+        for copy in 0..count {
+            *rng = before;
+            let later = DropScene {
+                first_impact_s: one.first_impact_s + real(copy) * every_s,
+                ..one.clone()
+            };
+            dropped.push(drop(scene, &later, dropped.len(), followed_s, rng)?);
+        }
+    }
+    Ok(dropped)
+}
+
+/// Drops a ball of a scene: all its impacts, those outside the recording too. Their sounds are followed for so long
 /// at most.
 ///
 /// # Errors
 /// [`Error::Argument`] naming what is out of range.
-pub(super) fn drop(
+fn drop(
     scene: &Scene,
+    drop: &DropScene,
     index: usize,
     followed_s: f64,
     rng: &mut SplitMix64,
 ) -> Result<Dropped, Error> {
-    let drop = &scene.drops[index];
     let seed = rng.next_u64();
     // What only some scenes vary has its own stream, so that turning it on changes nothing else.
     let mut variety = SplitMix64::new(!seed);
+    let mut pitches = SplitMix64::new(seed.rotate_left(32));
     let height_m = drop.height_m * (1.0 + drop.height_spread * (2.0 * variety.uniform() - 1.0));
     let setup = setup(drop, scene.gravity_m_per_s2, height_m, seed)?;
-    let impacts: Vec<Impact> = setup.impacts()?.take(MOST_IMPACTS + 1).collect();
+    let impacts = impacts(drop, &setup)?;
     if impacts.len() > MOST_IMPACTS {
         return Err(Error::Argument {
             argument: "bounce",
@@ -76,7 +109,7 @@ pub(super) fn drop(
         .unwrap_or(1e-3);
     within("contact_time_s", contact_time_s, 1e-9..=1.0, "1 ns to 1 s")?;
     let fastest = impacts.first().map_or(1.0, |i| i.impact_speed_m_per_s);
-    let strikes = impacts.into_iter().map(|impact| {
+    let strikes = impacts.into_iter().zip(1..).map(|(impact, number)| {
         let speed = impact.impact_speed_m_per_s;
         let rolled_m = drop.leaving_m_per_s * (impact.time_s - first_s);
         let distance_m = drop.microphone_distance_m + rolled_m;
@@ -87,16 +120,26 @@ pub(super) fn drop(
             .modes
             .iter()
             .map(|m| Mode {
+                frequency_hz: m.frequency_hz * pitches.factor(drop.frequency_scatter),
                 level: m.level * loudness * libm::exp(drop.level_scatter * rng.normal()),
                 ..*m
             })
             .collect();
         let force_s = contact_time_s * libm::pow(speed / fastest, drop.contact_exponent);
+        let here = || drop.changes.iter().filter(|c| c.impact == number);
+        let lasting = drop
+            .changes
+            .iter()
+            .filter(|c| c.lasting && c.impact <= number);
+        let lasting: f64 = lasting.map(|c| c.restitution_factor).product();
         Ok(Strike {
             drop: index,
+            odd: here().any(|c| !c.lasting),
+            changed: here().any(|c| c.lasting),
+            level_scatter: drop.level_scatter,
             touch_s: impact.time_s + shift_s,
             arrival_s: impact.time_s + shift_s + travel_s(distance_m),
-            nominal: nominal(&setup, speed)?,
+            nominal: (nominal(&setup, speed)? * lasting).min(1.0),
             sound: Sound::new(&modes, force_s).at_most(followed_s),
             impact,
         })
@@ -106,6 +149,23 @@ pub(super) fn drop(
         contact_time_s,
         strikes: strikes.collect::<Result<_, Error>>()?,
     })
+}
+
+/// The impacts of a drop, with what is odd about its bounces, and one more than are allowed.
+fn impacts(drop: &DropScene, setup: &DropSetup) -> Result<Vec<Impact>, Error> {
+    let mut left = setup.impacts()?;
+    let numbers = 1..=MOST_IMPACTS + 1;
+    Ok(numbers
+        .map_while(|number| left.next_with(factor(drop, number)))
+        .collect())
+}
+
+/// What e is multiplied with at an impact, from 1.
+fn factor(drop: &DropScene, number: usize) -> f64 {
+    let now = |c: &&BounceChange| c.impact == number || c.lasting && c.impact < number;
+    let changes = drop.changes.iter().filter(now);
+    let half = if number % 2 == 1 { 0.5 } else { -0.5 };
+    changes.map(|c| c.restitution_factor).product::<f64>() * libm::exp(half * drop.alternation)
 }
 
 fn setup(drop: &DropScene, gravity: f64, height_m: f64, seed: u64) -> Result<DropSetup, Error> {

@@ -1,32 +1,35 @@
 //! Recordings made from the model, with their true impact times beside them.
 //!
 //! [`scene`] says what is dropped and how it is recorded, [`sound`] gives one impact's sound in closed form at any
-//! instant, [`room`] its reflections, [`ambience`] and [`bursts`] what is heard besides, [`recorder`] what becomes of it,
+//! instant, [`room`] its reflections, [`ambience`], [`bursts`], [`taps`] and [`babble`] what is heard besides, [`recorder`] what becomes of it,
 //! [`hearing`] what can be made out. The same scene and seed give the same samples on every machine: all functions come
 //! from `libm`, all random numbers from `random`.
 
 pub mod ambience;
-mod babble;
+pub mod babble;
 pub mod bursts;
+mod drop_scene;
 mod drops;
+mod gaps;
 pub mod hearing;
 pub mod presets;
 pub mod recorder;
 pub mod room;
 pub mod scene;
 pub mod sound;
+pub mod taps;
 pub mod truth;
 
 use crate::Error;
 use crate::random::SplitMix64;
 use crate::units::{real, samples_in};
-use drops::{Dropped, Strike};
+use drops::Strike;
 use hearing::{Background, Heard, Variety};
 use recorder::Channel;
 use room::Room;
 use scene::Scene;
 use sound::Rendered;
-use truth::{DropTruth, Truth};
+use truth::Truth;
 
 /// A recording made from a scene.
 #[derive(Debug, Clone)]
@@ -53,9 +56,7 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
     let end_s = scene.recorder.stop_s.unwrap_or(scene.duration_s);
     let count = samples_in(end_s - scene.recorder.start_s, rate);
     let followed_s = followed_s(count, rate);
-    let drops: Vec<Dropped> = (0..scene.drops.len())
-        .map(|index| drops::drop(scene, index, followed_s, &mut rng))
-        .collect::<Result<_, _>>()?;
+    let drops = drops::all(scene, followed_s, &mut rng)?;
     let mut strikes: Vec<&Strike> = drops.iter().flat_map(|d| &d.strikes).collect();
     strikes.sort_by(|a, b| a.arrival_s.total_cmp(&b.arrival_s));
     let stage = Stage {
@@ -81,15 +82,16 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
             &own.map(|(s, h)| (*s, *h)).collect::<Vec<_>>(),
         )
     });
+    let recorded = scene.recorder.record(&channels, rate);
     let truth = Truth {
         scene: scene.name.clone(),
         seed,
         sample_rate_hz: scene.sample_rate_hz,
-        duration_s: real(count) / rate,
+        duration_s: real(recorded.first().map_or(0, Vec::len)) / rate,
         drops: truths.collect(),
         parameters: scene.clone(),
     };
-    let mut recorded = scene.recorder.record(&channels, rate).into_iter();
+    let mut recorded = recorded.into_iter();
     Ok(Synthetic {
         samples: recorded.next().unwrap_or_default(),
         more_channels: recorded.collect(),
@@ -145,7 +147,7 @@ impl Stage<'_> {
             let modes = strike.sound.modes(self.rate, onset_s, gain);
             let variety = Variety {
                 modes: &modes,
-                level_scatter: self.scene.drops[strike.drop].level_scatter,
+                level_scatter: strike.level_scatter,
             };
             heard.push(self.hear(&direct, variety, until, &ambience, &steady));
             let passing = &mut ambience.bursts;
@@ -204,69 +206,6 @@ impl Stage<'_> {
         correlation[0] += step * step / 12.0;
         correlation
     }
-
-    /// What is true of a drop, given its impacts as they were heard.
-    fn truth(&self, dropped: &Dropped, own: &[(&Strike, Heard)]) -> DropTruth {
-        let end_s = real(self.count) / self.rate;
-        let delay_s = self
-            .scene
-            .recorder
-            .channels
-            .first()
-            .map_or(0.0, |c| c.delay_s);
-        let onset_s = |s: &Strike| s.arrival_s + delay_s;
-        let before = own.iter().filter(|(s, _)| onset_s(s) < 0.0).count();
-        let after = own.iter().filter(|(s, _)| onset_s(s) >= end_s).count();
-        let within = &own[before..own.len() - after];
-        let audible: Vec<bool> = within
-            .iter()
-            .enumerate()
-            .map(|(i, (s, heard))| {
-                let since = i
-                    .checked_sub(1)
-                    .map(|last| s.touch_s - within[last].0.touch_s);
-                heard.is_audible(since.unwrap_or(f64::INFINITY), dropped.contact_time_s)
-            })
-            .collect();
-        let list = |of: fn(&Strike) -> f64| within.iter().map(|(s, _)| of(s)).collect::<Vec<_>>();
-        let (speeds, nominal) = (list(|s| s.impact.impact_speed_m_per_s), list(|s| s.nominal));
-        let first = own
-            .first()
-            .map(|(s, _)| s.sound.render(self.rate, s.arrival_s, 1.0));
-        DropTruth {
-            impacts_s: list(|s| s.touch_s),
-            onsets_s: within.iter().map(|(s, _)| onset_s(s)).collect(),
-            energy_to_noise_db: within.iter().map(|(_, h)| h.energy_to_noise_db).collect(),
-            timing_limit_s: within.iter().map(|(_, h)| h.timing_limit_s).collect(),
-            timing_floor_s: within.iter().map(|(_, h)| h.timing_floor_s).collect(),
-            restitution: typical(&nominal, &audible),
-            audible,
-            restitution_nominal_each: nominal,
-            restitution_each: list(|s| s.impact.restitution()),
-            speeds_m_per_s: speeds,
-            impacts_before: before,
-            impacts_after: after,
-            height_m: dropped.height_m,
-            contact_time_s: dropped.contact_time_s,
-            period_s: first.map_or(0.0, |sound| 1.0 / sound.frequency_hz()),
-        }
-    }
-}
-
-/// Geometric mean of what is audible; of everything, if nothing is.
-fn typical(values: &[f64], audible: &[bool]) -> f64 {
-    let any = audible.contains(&true);
-    let all = values.iter().zip(audible);
-    let chosen: Vec<f64> = all
-        .filter(|(v, audible)| **v > 0.0 && (**audible || !any))
-        .map(|(v, _)| *v)
-        .collect();
-    let Some(&first) = chosen.first() else {
-        return 0.0;
-    };
-    // Relative to the first, so that a constant comes out as it went in.
-    let logs = chosen.iter().map(|v| libm::log(v / first));
-    first * libm::exp(logs.sum::<f64>() / real(chosen.len()))
 }
 
 /// `10^(x/20)`.

@@ -3,6 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::decibels;
+pub use super::gaps::Gap;
+use super::gaps::check_gaps;
 use super::scene::within;
 use crate::Error;
 
@@ -26,6 +28,10 @@ pub struct Recorder {
     pub stop_s: Option<f64>,
     /// Its channels. Default one.
     pub channels: Vec<Channel>,
+    /// Stretches that are silent in the file, in order of time.
+    pub drop_outs: Vec<Gap>,
+    /// Stretches that are cut out of the file, so that what follows comes earlier; in order of time.
+    pub splices: Vec<Gap>,
 }
 
 /// How samples are stored.
@@ -85,6 +91,8 @@ impl Default for Recorder {
             start_s: 0.0,
             stop_s: None,
             channels: vec![Channel::default()],
+            drop_outs: Vec::new(),
+            splices: Vec::new(),
         }
     }
 }
@@ -156,6 +164,8 @@ impl Recorder {
             within("delay_s", channel.delay_s, -1.0..=1.0, "-1 to 1 s")?;
             within("level_db", channel.level_db, -200.0..=40.0, "-200 to 40")?;
         }
+        check_gaps(&self.drop_outs, self.start_s, end)?;
+        check_gaps(&self.splices, self.start_s, end)?;
         if self.channels.is_empty() || self.channels.len() > 64 {
             let count = crate::units::real(self.channels.len());
             return Err(Error::argument("channels", count, "1 to 64"));
@@ -173,7 +183,7 @@ impl Recorder {
                     .iter()
                     .zip(&gains)
                     .map(|(x, gain)| self.store(gain * x));
-                recorded.collect()
+                self.edited(recorded.collect(), rate)
             })
             .collect()
     }

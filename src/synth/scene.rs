@@ -8,6 +8,7 @@ use super::room::{Echo, Tail};
 use crate::Error;
 use crate::units::real;
 
+pub use super::drop_scene::{BounceChange, BounceScene, Copies, DropScene, Mode};
 pub use super::presets::preset;
 
 /// Samples that are made at most, as some 20 bytes of memory go with each: 38 minutes of one channel at 44.1 kHz.
@@ -48,111 +49,6 @@ pub struct Scene {
     /// How it is recorded.
     #[serde(default)]
     pub recorder: Recorder,
-}
-
-/// One drop.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DropScene {
-    /// From the ball's lowest point to the surface, in metres.
-    pub height_m: f64,
-    /// Each seed drops it from another height within this share of `height_m`, up or down. Default 0.
-    #[serde(default)]
-    pub height_spread: f64,
-    /// When it first hits, in seconds from the start of the scene, up to a sample more: elsewhere for every seed.
-    pub first_impact_s: f64,
-    /// Mass in kilograms.
-    pub mass_kg: f64,
-    /// Diameter in metres.
-    pub diameter_m: f64,
-    /// Whether the air slows it. Default no.
-    #[serde(default)]
-    pub drag: bool,
-    /// What happens at an impact.
-    pub bounce: BounceScene,
-    /// Standard deviation of ln e from bounce to bounce. Default 0.
-    #[serde(default)]
-    pub bounce_scatter: f64,
-    /// The ball is caught after this impact. Default: never.
-    #[serde(default)]
-    pub most_impacts: Option<usize>,
-    /// Distance to the microphone at the first impact, in metres: the sound comes later by 2.9 ms per metre. Its level
-    /// is `peak_db` whatever the distance. Default 0.
-    #[serde(default)]
-    pub microphone_distance_m: f64,
-    /// Speed at which the ball rolls away from the microphone, in m/s: the delay grows, the level falls. Default 0.
-    #[serde(default)]
-    pub leaving_m_per_s: f64,
-    /// What rings, ball and surface.
-    pub modes: Vec<Mode>,
-    /// Standard deviation of ln level of each mode from impact to impact. Default 0.
-    #[serde(default)]
-    pub level_scatter: f64,
-    /// Standard deviation of ln level of whole impacts. Default 0.
-    #[serde(default)]
-    pub loudness_scatter: f64,
-    /// The force lasts as (v/v₁)^this: −0.2 for a solid sphere (Hertz). It changes the sound, not the flights. Default 0.
-    #[serde(default)]
-    pub contact_exponent: f64,
-}
-
-/// What happens at an impact: one of the laws of [`crate::physics`].
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
-pub enum BounceScene {
-    /// The same e and contact time at every impact; rest by the paper's (19).
-    Constant {
-        /// e.
-        restitution: f64,
-        /// ΔT in seconds.
-        contact_time_s: f64,
-    },
-    /// The linear ball with its weight, from e and ΔT of a fast impact.
-    Linear {
-        /// e without weight.
-        restitution: f64,
-        /// ΔT without weight, in seconds.
-        contact_time_s: f64,
-    },
-    /// The linear ball with its weight, from k and c.
-    Spring {
-        /// k.
-        stiffness_n_per_m: f64,
-        /// c.
-        damping_n_s_per_m: f64,
-    },
-    /// `e = 1 − γ₁v^(1/5) + γ₂v^(2/5)`.
-    Viscoelastic {
-        /// γ₁.
-        gamma1: f64,
-        /// γ₂.
-        gamma2: f64,
-        /// ΔT in seconds.
-        contact_time_s: f64,
-    },
-    /// `e = e_y·(max(v, v_y)/v_y)^(−p)`.
-    Power {
-        /// e below the yield speed.
-        restitution: f64,
-        /// `v_y`.
-        yield_speed_m_per_s: f64,
-        /// p.
-        exponent: f64,
-        /// ΔT in seconds.
-        contact_time_s: f64,
-    },
-}
-
-/// A damped oscillation that an impact sets off.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Mode {
-    /// Frequency in Hz. Above 0.45 of the sample rate it is left out, as a recorder's filter does.
-    pub frequency_hz: f64,
-    /// Time in which it falls to 1/e, in seconds.
-    pub decay_s: f64,
-    /// Amplitude for an impact of 1 m/s, in any unit: only the ratios between modes matter.
-    pub level: f64,
 }
 
 const fn default_sample_rate_hz() -> u32 {
@@ -216,54 +112,6 @@ impl Scene {
     }
 }
 
-impl DropScene {
-    fn check(&self, duration_s: f64) -> Result<(), Error> {
-        within(
-            "first_impact_s",
-            self.first_impact_s,
-            0.0..=duration_s,
-            "a time within the recording",
-        )?;
-        within("height_spread", self.height_spread, 0.0..=0.9, "0 to 0.9")?;
-        within("level_scatter", self.level_scatter, 0.0..=3.0, "0 to 3")?;
-        within(
-            "loudness_scatter",
-            self.loudness_scatter,
-            0.0..=3.0,
-            "0 to 3",
-        )?;
-        within(
-            "contact_exponent",
-            self.contact_exponent,
-            -1.0..=1.0,
-            "-1 to 1",
-        )?;
-        within(
-            "microphone_distance_m",
-            self.microphone_distance_m,
-            0.0..=1e4,
-            "0 to 10 km",
-        )?;
-        within(
-            "leaving_m_per_s",
-            self.leaving_m_per_s,
-            0.0..=30.0,
-            "0 to 30 m/s",
-        )?;
-        for mode in &self.modes {
-            within(
-                "frequency_hz",
-                mode.frequency_hz,
-                1e-3..=1e6,
-                "0.001 to 1000000 Hz",
-            )?;
-            within("decay_s", mode.decay_s, 1e-6..=60.0, "1 us to 60 s")?;
-            within("level", mode.level, 0.0..=1e30, "0 to 1e30")?;
-        }
-        Ok(())
-    }
-}
-
 /// An error naming what is out of range, NaN included.
 pub(super) fn within(
     argument: &'static str,
@@ -308,6 +156,22 @@ mod tests {
             (
                 "name = 'x'\nduration_s = 1.0\n[recorder]\nstart_s = 2.0",
                 "start_s",
+            ),
+            (
+                "name = 'x'\nduration_s = 1.0\n[recorder]\nsplices = [{ at_s = 0.9, length_s = 0.2 }]",
+                "length_s",
+            ),
+            (
+                "name = 'x'\nduration_s = 1.0\n[recorder]\nsplices = [{ at_s = 0.5, length_s = 0.2 }, { at_s = 0.6, length_s = 0.2 }]",
+                "at_s",
+            ),
+            (
+                "name = 'x'\nduration_s = 1.0\n[noise]\nwords = { level_db = -20.0, every_s = 0.0 }",
+                "every_s",
+            ),
+            (
+                "name = 'x'\nduration_s = 1.0\n[[noise.taps]]\nfirst_s = 0.1\ncount = 3\ninterval_s = 0.0\nlevel_db = -3.0\ncontact_time_s = 1e-3\nmodes = []",
+                "interval_s",
             ),
         ] {
             let error = Scene::from_toml(text).unwrap_err().to_string();

@@ -395,3 +395,20 @@ fn a_drop_is_the_same_to_the_last_bit_on_every_machine() {
         (78, 4_618_193_600_728_766_890, 4_560_409_409_221_699_851),
     );
 }
+
+#[test]
+fn a_bounce_with_a_factor_loses_as_much_more_and_none_makes_energy() {
+    for setup in all_kinds_of_drops() {
+        let plain = impacts(&setup);
+        let mut changed = setup.impacts().unwrap();
+        let (first, second) = (changed.next_with(0.8), changed.next_with(50.0));
+        let first = first.unwrap();
+        let expected = 0.8 * plain[0].rebound_speed_m_per_s;
+        // A ball that then lies deeper than it would rise rests.
+        let rests = first.rebound_speed_m_per_s <= 0.0;
+        assert!(rests || (first.rebound_speed_m_per_s - expected).abs() < 1e-12 * expected);
+        if let Some(second) = second {
+            assert!(second.rebound_speed_m_per_s <= second.impact_speed_m_per_s);
+        }
+    }
+}
