@@ -16,7 +16,7 @@ use bounce_audio::evaluate::reference::Reference;
 use bounce_audio::evaluate::rows::{Evaluation, Tier};
 use bounce_audio::evaluate::scores::{FileScore, score};
 use bounce_audio::evaluate::thresholds::Thresholds;
-use bounce_audio::synth::presets::{names, preset};
+use bounce_audio::synth::presets::{found_names, names, preset};
 use bounce_audio::synth::render;
 use bounce_audio::{Settings, analyze_clearest};
 
@@ -57,9 +57,8 @@ fn all(jobs: &[(&str, u64)]) -> Vec<FileScore> {
     scores.into_inner().unwrap()
 }
 
-#[test]
-fn the_suite_reaches_what_it_reached() {
-    let jobs: Vec<(&str, u64)> = names()
+fn evaluated(names: impl Iterator<Item = &'static str>) -> Evaluation {
+    let jobs: Vec<(&str, u64)> = names
         .flat_map(|name| SEEDS.map(|seed| (name, seed)))
         .collect();
     let tier = Tier {
@@ -67,12 +66,30 @@ fn the_suite_reaches_what_it_reached() {
         model: "auto".to_owned(),
         files: all(&jobs),
     };
-    let evaluation = Evaluation::of(&[tier], None);
-    let text = include_str!("../fixtures/suite-thresholds.toml");
-    let thresholds = Thresholds::from_toml(text).unwrap();
+    Evaluation::of(&[tier], None)
+}
+
+fn assert_reached(evaluation: &Evaluation, thresholds: &str) {
+    let thresholds = Thresholds::from_toml(thresholds).unwrap();
     let rows = evaluation.rows.iter().chain(&evaluation.scenes);
     let complaints = thresholds.complaints(rows);
     assert!(complaints.is_empty(), "{}", complaints.join("\n"));
+}
+
+#[test]
+#[ignore = "its thresholds are not set yet"]
+fn drops_that_are_hard_to_find_are_found_as_they_were() {
+    let thresholds = include_str!("../fixtures/found-thresholds.toml");
+    assert_reached(&evaluated(found_names()), thresholds);
+}
+
+#[test]
+fn the_suite_reaches_what_it_reached() {
+    let evaluation = evaluated(names());
+    assert_reached(
+        &evaluation,
+        include_str!("../fixtures/suite-thresholds.toml"),
+    );
     assert!(
         evaluation.rows[0].audible > 1_000,
         "hardly anything was there to hear"

@@ -22,7 +22,8 @@ use crate::units::real;
   bounce-audio synth --list
   bounce-audio synth --preset pingpong -o pingpong.wav
   bounce-audio synth my-scene.toml --seed 7 -o drop.wav
-  bounce-audio synth --suite suite --seeds 3")]
+  bounce-audio synth --suite suite --seeds 3
+  bounce-audio synth --suite found --found --seeds 2")]
 pub(super) struct Arguments {
     /// A scene as text; those of the presets are in assets/scenes
     #[arg(value_name = "SCENE.toml")]
@@ -50,13 +51,16 @@ pub(super) struct Arguments {
         allow_hyphen_values = true
     )]
     seeds: u64,
+    /// Make the scenes of drops that are hard to find instead: odd bounces, few or hundreds, other sounds
+    #[arg(long, requires = "suite")]
+    found: bool,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let output = if arguments.list {
         list()?
     } else if let Some(folder) = &arguments.suite {
-        make_suite(folder, arguments.seeds)?
+        make_suite(folder, arguments)?
     } else {
         make_one(arguments)?
     };
@@ -65,18 +69,23 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
 
 fn list() -> Result<String, Error> {
     let mut text = String::new();
-    for name in presets::names() {
-        text += &format!("{name:<12} {}\n", preset(name)?.about);
+    for name in presets::names().chain(presets::found_names()) {
+        text += &format!("{name:<16} {}\n", preset(name)?.about);
     }
     Ok(text)
 }
 
-fn make_suite(folder: &Path, seeds: u64) -> Result<String, Error> {
+fn make_suite(folder: &Path, arguments: &Arguments) -> Result<String, Error> {
     fs::create_dir_all(folder).map_err(|e| Error::from(e).in_file(folder))?;
+    let names: Vec<&str> = if arguments.found {
+        presets::found_names().collect()
+    } else {
+        presets::names().collect()
+    };
     let mut made = 0;
-    for name in presets::names() {
+    for name in &names {
         let scene = preset(name)?;
-        for seed in 1..=seeds {
+        for seed in 1..=arguments.seeds {
             write(
                 &folder.join(format!("{name}-{seed}.wav")),
                 &render(&scene, seed)?,
@@ -84,10 +93,10 @@ fn make_suite(folder: &Path, seeds: u64) -> Result<String, Error> {
             made += 1;
         }
     }
-    let scenes = presets::names().count();
     Ok(format!(
-        "{}: {made} recordings of {scenes} scenes\n",
-        folder.display()
+        "{}: {made} recordings of {} scenes\n",
+        folder.display(),
+        names.len()
     ))
 }
 

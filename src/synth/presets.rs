@@ -4,16 +4,17 @@ use super::scene::Scene;
 use crate::Error;
 
 macro_rules! scenes {
-    ($($name:literal),* $(,)?) => {
-        /// Name and text of each scene.
-        const SCENES: &[(&str, &str)] = &[
+    ($(#[$about:meta])* $suite:ident: $($name:literal),* $(,)?) => {
+        $(#[$about])*
+        const $suite: &[(&str, &str)] = &[
             $(($name, include_str!(concat!("../../assets/scenes/", $name, ".toml")))),*
         ];
     };
 }
 
-// Drops first, then recordings that hold none.
 scenes!(
+    /// Name and text of each scene of the suite: drops first, then recordings that hold none.
+    SUITE:
     "steel",
     "pingpong",
     "rubber",
@@ -58,9 +59,44 @@ scenes!(
     "rumble",
 );
 
-/// Names of the presets: those with drops first, then those that hold none.
+scenes!(
+    /// Those of the second suite: drops that are hard to find or to follow to their end, then what is easily taken for one.
+    FOUND:
+    "odd-bounce",
+    "odd-twice",
+    "other-surface",
+    "splice",
+    "drop-out",
+    "scatter-5",
+    "scatter-8",
+    "by-turns",
+    "eight-of-steel",
+    "liveliest",
+    "first-sample",
+    "ten-metres",
+    "two-impacts",
+    "three-impacts",
+    "copies",
+    "knocked-before",
+    "match",
+    "words-and-tennis",
+    "unlike",
+    "thumps",
+    "words",
+    "quick-taps",
+    "slow-taps",
+    "two-clocks",
+    "applause",
+);
+
+/// Names of the scenes of the suite: those with drops first, then those that hold none.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    SCENES.iter().map(|(name, _)| *name)
+    SUITE.iter().map(|(name, _)| *name)
+}
+
+/// Names of the scenes of the second suite: odd, short, lively or disturbed drops, then recordings that hold none.
+pub fn found_names() -> impl Iterator<Item = &'static str> {
+    FOUND.iter().map(|(name, _)| *name)
 }
 
 /// The scene of this name.
@@ -68,7 +104,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 /// # Errors
 /// [`Error::Argument`] if there is none, with the way to those that there are.
 pub fn preset(name: &str) -> Result<Scene, Error> {
-    let found = SCENES.iter().find(|(known, _)| *known == name);
+    let found = SUITE.iter().chain(FOUND).find(|(known, _)| *known == name);
     let (_, text) = found.ok_or_else(|| Error::Argument {
         argument: "--preset",
         got: format!("'{name}'"),
@@ -83,11 +119,20 @@ mod tests {
 
     #[test]
     fn every_scene_is_read_and_bears_the_name_of_its_file() {
-        for name in names() {
+        for name in names().chain(found_names()) {
             let scene = preset(name).unwrap_or_else(|e| panic!("{name}: {e}"));
             assert_eq!(scene.name, name);
             assert!(scene.about.len() > 15, "{name} says nothing about itself");
         }
+    }
+
+    #[test]
+    fn a_name_is_that_of_one_scene() {
+        let mut all: Vec<&str> = names().chain(found_names()).collect();
+        let count = all.len();
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), count);
     }
 
     #[test]
