@@ -1,0 +1,29 @@
+//! Balls that are caught after a few impacts.
+
+use bounce_audio::Settings;
+
+use super::parallel::each;
+use super::trial::{BALLS, HEAD, heard_with, line};
+
+/// Drops of each ball.
+const SEEDS: u64 = 5;
+
+pub(crate) fn table() {
+    println!("{HEAD}");
+    for impacts in 1..=5 {
+        for with_height in [false, true] {
+            let trials = BALLS
+                .iter()
+                .flat_map(|ball| (1..=SEEDS).map(move |seed| (ball, seed)));
+            let trials: Vec<_> = trials.collect();
+            let heard = each(&trials, |(ball, seed)| {
+                let mut scene = ball.scene(Some(impacts));
+                scene.drops[0].height_spread = 0.0;
+                let height_m = with_height.then_some(ball.height_m);
+                heard_with(&scene, *seed, &Settings::default().height_m(height_m))
+            });
+            let height = if with_height { ", height known" } else { "" };
+            println!("{}", line(&format!("{impacts} impacts{height}"), &heard));
+        }
+    }
+}

@@ -1,0 +1,57 @@
+//! How sure drops are found that are odd, short, lively or in company, and how often one is found where no ball is.
+//!
+//! ```text
+//! cargo run --release --example found -- range            e from 0.2 to 0.995 by the number of impacts
+//! cargo run --release --example found -- scatter          e that scatters from bounce to bounce
+//! cargo run --release --example found -- alternating      e by turns
+//! cargo run --release --example found -- odd              odd bounces, splices, another surface
+//! cargo run --release --example found -- begin            first impacts that are hard to find
+//! cargo run --release --example found -- few              one to five impacts, then caught
+//! cargo run --release --example found -- knocks           what knocks before a drop cost it
+//! cargo run --release --example found -- copies DIR       recordings put several times into one
+//! cargo run --release --example found -- nothing [DIR]    clips without a ball, and recordings without one
+//! ```
+//!
+//! Each prints a table of a line per row, so that `diff` compares two builds. The product knows nothing of this.
+#![allow(
+    clippy::unwrap_used,
+    clippy::print_stdout,
+    clippy::print_stderr,
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "an example prints, and stops at the first surprise; counts are small"
+)]
+
+mod begin;
+mod bounces;
+mod company;
+mod copies;
+mod few;
+mod nothing;
+mod parallel;
+mod range;
+mod trial;
+
+use std::env;
+use std::path::Path;
+
+fn main() {
+    let words: Vec<String> = env::args().skip(1).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words.as_slice() {
+        ["range"] => range::table(),
+        ["scatter"] => bounces::scatter(),
+        ["alternating"] => bounces::alternating(),
+        ["odd"] => bounces::odd(),
+        ["begin"] => begin::table(),
+        ["few"] => few::table(),
+        ["knocks"] => company::knocks(),
+        ["copies", folder] => copies::table(Path::new(folder)),
+        ["nothing"] => nothing::table(None),
+        ["nothing", folder] => nothing::table(Some(Path::new(folder))),
+        _ => eprintln!(
+            "found range | scatter | alternating | odd | begin | few | knocks | copies DIR | nothing [DIR]"
+        ),
+    }
+}
