@@ -16,7 +16,7 @@ pub(crate) fn add_knocks(scene: &mut Scene, modes: &[Mode]) {
     scene.noise.taps.push(Taps {
         first_s: scene.drops[0].first_impact_s - 2.0,
         count: 3,
-        interval_s: 0.3,
+        interval_s: 0.45,
         interval_factor: 1.3,
         interval_scatter: 0.1,
         level_db: scene.peak_db,
