@@ -66,7 +66,15 @@ pub(super) fn all(
                 first_impact_s: one.first_impact_s + real(copy) * every_s,
                 ..one.clone()
             };
-            dropped.push(drop(scene, &later, dropped.len(), followed_s, rng)?);
+            let made = drop(scene, &later, dropped.len(), followed_s, rng)?;
+            if count * made.strikes.len() > MOST_IMPACTS {
+                return Err(Error::Argument {
+                    argument: "copies",
+                    got: format!("{count} of {} impacts", made.strikes.len()),
+                    expected: "100000 impacts at most in all",
+                });
+            }
+            dropped.push(made);
         }
     }
     Ok(dropped)

@@ -188,6 +188,18 @@ fn copies_are_the_same_drop_at_other_times() {
 }
 
 #[test]
+fn copies_of_more_impacts_than_are_made_are_refused() {
+    let mut scene = preset("steel").unwrap();
+    scene.duration_s = 100.0;
+    scene.drops[0].copies = Some(scene::Copies {
+        count: 5_000,
+        every_s: 0.01,
+    });
+    let error = render(&scene, 1).unwrap_err().to_string();
+    assert!(error.starts_with("copies"), "{error}");
+}
+
+#[test]
 fn a_splice_brings_what_follows_forward_and_takes_out_what_it_covers() {
     let whole = preset("steel").unwrap();
     let mut cut = whole.clone();

@@ -76,6 +76,14 @@ fn presets_are_listed_with_what_they_show() {
         lines.lines().count() >= 24 && lines.contains("pingpong "),
         "{lines}"
     );
+    assert!(lines.contains("odd-bounce "), "{lines}");
+}
+
+#[test]
+fn the_second_suite_is_asked_for_with_a_folder() {
+    let output = run(&["synth", "--preset", "steel", "-o", "x.wav", "--found"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("--suite"));
 }
 
 #[test]
