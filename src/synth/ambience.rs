@@ -34,9 +34,9 @@ pub struct Noise {
     pub knocks: Option<Knocks>,
     /// Steps or ticks at regular times.
     pub steps: Option<Steps>,
-    /// Words that fall like a ball: syllables faster and faster, and fainter.
+    /// Words whose syllables quicken and fade as the impacts of a ball do.
     pub words: Option<Words>,
-    /// Rows of sounds that are alike: taps, claps, keys, a game.
+    /// Rows of like sounds: taps, claps, keys, a game.
     pub taps: Vec<Taps>,
 }
 

@@ -9,14 +9,14 @@ use crate::Error;
 use crate::random::SplitMix64;
 use crate::units::{real, samples_in};
 
-/// Words of four to nine voiced syllables, each of which begins hard and comes sooner after the one before, and fainter, by
-/// a share of its own: speech that keeps the time of a dead ball.
+/// Words of four to nine voiced syllables that quicken and fade by a ratio, each with a hard onset: speech with the timing of
+/// a dead ball.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Words {
     /// rms of the loudest syllable of a word in dB of full scale.
     pub level_db: f64,
-    /// From the end of a word to the start of the next, in seconds.
+    /// Pause from the end of a word to the start of the next, in seconds.
     pub every_s: f64,
 }
 
@@ -27,20 +27,20 @@ impl Words {
     }
 }
 
-/// What a syllable is like.
+/// The sound of a syllable.
 #[derive(Debug, Clone, Copy)]
 struct Manner {
     voiced: bool,
-    /// In this share of its time it swells, and fades over the rest.
+    /// Share of its time in which it swells; it fades over the rest.
     attack_share: f64,
-    /// Loudness of the hiss that it begins with, as of a t or a k; a pulse of the voice is 1.
+    /// Amplitude of the hiss at its onset, as of a t or a k; a pulse of the voice is 1.
     burst: f64,
 }
 
 /// Shortest interval between syllables of a word, in seconds.
 const SHORTEST_SYLLABLE_S: f64 = 0.04;
 
-/// The hiss that a syllable begins with has faded to 1/e after this, in seconds.
+/// Decay of that hiss to 1/e, in seconds.
 const BURST_S: f64 = 3e-3;
 
 /// Adds words. Intervals begin with 0.15 to 0.5 s and shrink by 0.6 to 0.95 with 2 % of scatter; levels fall as they do.

@@ -1,4 +1,4 @@
-//! What a scene says of one drop: the ball, how it falls and bounces, what it sounds like.
+//! One drop of a scene: the ball, its fall, its bounces and its sound.
 
 use serde::{Deserialize, Serialize};
 
@@ -29,11 +29,11 @@ pub struct DropScene {
     /// Standard deviation of ln e from bounce to bounce. Default 0.
     #[serde(default)]
     pub bounce_scatter: f64,
-    /// By turns, e is higher at odd impacts (the first, third, …) and lower at even ones: ln of the ratio of the two, for a
-    /// seam or an oval ball. e keeps its geometric mean. Default 0.
+    /// ln of the ratio of e at odd impacts (the first, third, …) to e at even ones, as of a ball with a seam; the geometric
+    /// mean stays. Default 0.
     #[serde(default)]
     pub alternation: f64,
-    /// Impacts at which the ball loses more or less than its law says.
+    /// Deviations from the law of the bounce, at single impacts or from one on.
     #[serde(default)]
     pub changes: Vec<BounceChange>,
     /// The ball is caught after this impact. Default: never.
@@ -51,8 +51,8 @@ pub struct DropScene {
     /// Standard deviation of ln level of each mode from impact to impact. Default 0.
     #[serde(default)]
     pub level_scatter: f64,
-    /// Standard deviation of ln frequency of each mode from impact to impact: another spot of the ball and of the surface
-    /// sounds otherwise. `timing_floor_s` of the truth does not know of it. Default 0.
+    /// Standard deviation of ln frequency of each mode from impact to impact, as each hits another spot of ball and surface.
+    /// `timing_floor_s` of the truth leaves it out. Default 0.
     #[serde(default)]
     pub frequency_scatter: f64,
     /// Standard deviation of ln level of whole impacts. Default 0.
@@ -61,31 +61,31 @@ pub struct DropScene {
     /// The force lasts as (v/v₁)^this: −0.2 for a solid sphere (Hertz). It changes the sound, not the flights. Default 0.
     #[serde(default)]
     pub contact_exponent: f64,
-    /// The same drop again and again, to the last sample of its sound. Default: once.
+    /// Repetitions of the drop with the same random numbers. Default: none.
     #[serde(default)]
     pub copies: Option<Copies>,
 }
 
-/// A bounce that does not go by the law of the others.
+/// A deviation from the law of the bounce.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BounceChange {
-    /// Which impact, from 1.
+    /// Number of the impact, from 1.
     pub impact: usize,
-    /// The ball leaves with so many times the speed that it would have; never faster than it came.
+    /// Factor on the rebound speed, 0.01 to 2. The rebound is never faster than the impact.
     pub restitution_factor: f64,
-    /// Whether it stays so from this impact on, as on another surface. Default no: one odd bounce, as on a joint of tiles.
+    /// Whether it lasts from this impact on, as on another surface. Default no: one odd bounce, as on a joint of tiles.
     #[serde(default)]
     pub lasting: bool,
 }
 
-/// One drop several times.
+/// Repetitions of a drop.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Copies {
-    /// How often in all.
+    /// Number of drops in all.
     pub count: usize,
-    /// From one first impact to the next, in seconds.
+    /// Time from one first impact to the next, in seconds.
     pub every_s: f64,
 }
 

@@ -29,9 +29,9 @@ pub(super) struct Strike {
     pub(super) arrival_s: f64,
     /// e before scatter.
     pub(super) nominal: f64,
-    /// Whether this bounce alone does not go by the law of the others.
+    /// Whether this bounce alone deviates from the law.
     pub(super) odd: bool,
-    /// Whether e is another from here on.
+    /// Whether e changes for good here.
     pub(super) changed: bool,
     /// Standard deviation of ln level of each mode.
     pub(super) level_scatter: f64,
@@ -47,7 +47,7 @@ pub(super) struct Dropped {
     pub(super) strikes: Vec<Strike>,
 }
 
-/// Drops all balls of a scene, one of several copies with the random numbers of the first.
+/// Drops all balls of a scene; copies of a drop take the random numbers of the first.
 ///
 /// # Errors
 /// [`Error::Argument`] naming what is out of range.
@@ -159,7 +159,7 @@ fn drop(
     })
 }
 
-/// The impacts of a drop, with what is odd about its bounces, and one more than are allowed.
+/// The impacts of a drop with its deviations, and one more than are allowed.
 fn impacts(drop: &DropScene, setup: &DropSetup) -> Result<Vec<Impact>, Error> {
     let mut left = setup.impacts()?;
     let numbers = 1..=MOST_IMPACTS + 1;
@@ -168,7 +168,7 @@ fn impacts(drop: &DropScene, setup: &DropSetup) -> Result<Vec<Impact>, Error> {
         .collect())
 }
 
-/// What e is multiplied with at an impact, from 1.
+/// The factor on the rebound speed at an impact, by its number from 1.
 fn factor(drop: &DropScene, number: usize) -> f64 {
     let now = |c: &&BounceChange| c.impact == number || c.lasting && c.impact < number;
     let changes = drop.changes.iter().filter(now);

@@ -14,9 +14,9 @@ use crate::units::samples_in;
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Gap {
-    /// Where it begins in the scene, in seconds.
+    /// Its start in the scene, in seconds.
     pub at_s: f64,
-    /// How long it is, in seconds.
+    /// Its length in seconds.
     pub length_s: f64,
 }
 
@@ -40,7 +40,7 @@ pub(super) fn check_gaps(gaps: &[Gap], start_s: f64, end_s: f64) -> Result<(), E
 }
 
 impl Recorder {
-    /// Silences what drops out, then cuts out what is spliced, from the end so that places stay what they are.
+    /// Silences the drop-outs, then cuts the splices out, from the last to the first so that earlier places stay valid.
     pub(super) fn edited(&self, mut samples: Vec<f32>, rate: f64) -> Vec<f32> {
         for gap in &self.drop_outs {
             let at = self.samples_of(*gap, rate, samples.len());
@@ -59,7 +59,7 @@ impl Recorder {
         from..(from + samples_in(gap.length_s, rate)).min(count)
     }
 
-    /// How many seconds are cut out before an instant, in seconds from the first sample; none if it is cut out itself.
+    /// Seconds cut out before an instant, itself in seconds from the first sample; none if the instant is cut out.
     pub(super) fn cut_before_s(&self, time_s: f64, rate: f64) -> Option<f64> {
         let mut cut_s = 0.0;
         for gap in &self.splices {

@@ -1,9 +1,9 @@
 //! Recordings made from the model, with their true impact times beside them.
 //!
 //! [`scene`] says what is dropped and how it is recorded, [`sound`] gives one impact's sound in closed form at any
-//! instant, [`room`] its reflections, [`ambience`], [`bursts`], [`taps`] and [`babble`] what is heard besides, [`recorder`] what becomes of it,
-//! [`hearing`] what can be made out. The same scene and seed give the same samples on every machine: all functions come
-//! from `libm`, all random numbers from `random`.
+//! instant, [`room`] its reflections, [`ambience`], [`bursts`], [`taps`] and [`babble`] what is heard besides, [`recorder`]
+//! what becomes of it, [`hearing`] what can be made out. The same scene and seed give the same samples on every machine: all
+//! functions come from `libm`, all random numbers from `random`.
 
 pub mod ambience;
 pub mod babble;

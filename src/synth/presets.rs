@@ -60,7 +60,7 @@ scenes!(
 );
 
 scenes!(
-    /// Those of the second suite: drops that are hard to find or to follow to their end, then what is easily taken for one.
+    /// Name and text of each scene of the second suite: drops that are hard to find or to follow, then sounds taken for one.
     FOUND:
     "odd-bounce",
     "odd-twice",

@@ -30,7 +30,7 @@ pub struct Recorder {
     pub channels: Vec<Channel>,
     /// Stretches that are silent in the file, in order of time.
     pub drop_outs: Vec<Gap>,
-    /// Stretches that are cut out of the file, so that what follows comes earlier; in order of time.
+    /// Stretches that are cut out of the file, in order of time; later sound moves forward.
     pub splices: Vec<Gap>,
 }
 

@@ -1,4 +1,4 @@
-//! Rows of sounds that are alike and are no bounces: taps, claps, keys, a clock, the hits of a game.
+//! Rows of like sounds without a bouncing ball: taps, claps, keys, a clock, the hits of a game.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,29 +13,29 @@ use crate::units::real;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Taps {
-    /// When the first comes, in seconds from the start of the recording.
+    /// Time of the first sound in seconds from the start of the recording.
     pub first_s: f64,
-    /// How many there are.
+    /// Number of sounds.
     pub count: usize,
-    /// From the first to the second, in seconds.
+    /// Interval from the first to the second, in seconds.
     pub interval_s: f64,
-    /// Each interval is so many times the one before: below 1 they come faster and faster. Default 1.
+    /// Ratio of each interval to the one before; below 1 the row quickens. Default 1.
     #[serde(default = "one")]
     pub interval_factor: f64,
-    /// Standard deviation of ln of each interval. Default 0.
+    /// Standard deviation of ln interval. Default 0.
     #[serde(default)]
     pub interval_scatter: f64,
     /// Peak of the first in dB of full scale.
     pub level_db: f64,
-    /// Each is so much louder than the one before, in dB. Default 0.
+    /// Change of level from one sound to the next, in dB. Default 0.
     #[serde(default)]
     pub level_step_db: f64,
-    /// Standard deviation of the level of each in dB. Default 0.
+    /// Standard deviation of the level, in dB. Default 0.
     #[serde(default)]
     pub level_scatter_db: f64,
-    /// How long the force lasts, in seconds.
+    /// Contact time of each, in seconds.
     pub contact_time_s: f64,
-    /// What rings.
+    /// Modes that ring.
     pub modes: Vec<Mode>,
     /// Standard deviation of ln level of each mode from one to the next. Default 0.
     #[serde(default)]
@@ -45,7 +45,7 @@ pub struct Taps {
     pub frequency_scatter: f64,
 }
 
-/// Intervals are no shorter, in seconds.
+/// Shortest interval in seconds.
 const SHORTEST_S: f64 = 1e-3;
 
 const fn one() -> f64 {
@@ -103,7 +103,7 @@ impl Taps {
         self.modes.iter().try_for_each(Mode::check)
     }
 
-    /// Adds them to samples, as far as these go.
+    /// Adds the row to samples, as far as these go.
     pub(super) fn add(&self, rate: f64, rng: &mut SplitMix64, samples: &mut [f64]) {
         let end_s = instant_s(samples.len(), rate);
         let (mut at_s, mut interval_s) = (self.first_s, self.interval_s);

@@ -50,11 +50,11 @@ pub struct DropTruth {
     pub restitution_each: Vec<f64>,
     /// Speed of each impact in m/s.
     pub speeds_m_per_s: Vec<f64>,
-    /// Impacts, from 0, after which the flight does not go with the others: an odd bounce, or a splice before the next one.
+    /// Indices from 0 of impacts whose next flight is irregular: by an odd bounce, or a splice before the next impact.
     pub irregular: Vec<usize>,
-    /// Impacts, from 0, from which on e is another for good.
+    /// Indices from 0 of impacts at which e changes for good.
     pub changes: Vec<usize>,
-    /// Impacts that were cut out of the recording.
+    /// Number of impacts that a splice cut out.
     pub impacts_cut: usize,
     /// Impacts before the recorder started.
     pub impacts_before: usize,
@@ -75,7 +75,7 @@ struct Kept<'a> {
     /// Seconds from the first sample.
     touch_s: f64,
     onset_s: f64,
-    /// What is cut out of the recording before it, in seconds.
+    /// Seconds cut out of the recording before it.
     cut_s: f64,
 }
 
@@ -121,7 +121,7 @@ impl Stage<'_> {
         }
     }
 
-    /// By how much the first channel hears later, in seconds.
+    /// Delay of the first channel in seconds.
     fn delay_s(&self) -> f64 {
         let channels = self.scene.recorder.channels.first();
         channels.map_or(0.0, |c| c.delay_s)
