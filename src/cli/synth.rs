@@ -52,7 +52,7 @@ pub(super) struct Arguments {
     )]
     seeds: u64,
     /// Make the scenes of drops that are hard to find instead: odd bounces, few or hundreds, other sounds
-    #[arg(long, requires = "suite")]
+    #[arg(long, requires = "suite", conflicts_with_all = ["scene", "preset", "output"])]
     found: bool,
 }
 

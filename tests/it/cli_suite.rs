@@ -81,9 +81,14 @@ fn presets_are_listed_with_what_they_show() {
 
 #[test]
 fn the_second_suite_is_asked_for_with_a_folder() {
-    let output = run(&["synth", "--preset", "steel", "-o", "x.wav", "--found"]);
-    assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("--suite"));
+    for (arguments, named) in [
+        (vec!["--found"], "--suite"),
+        (vec!["--preset", "steel", "--found"], "cannot be used with"),
+    ] {
+        let output = run(&[&["synth"], arguments.as_slice()].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(text(&output.stderr).contains(named), "{arguments:?}");
+    }
 }
 
 #[test]
