@@ -9,7 +9,7 @@ use super::trial::{BALLS, HEAD, heard_with, line};
 const SEEDS: u64 = 5;
 
 pub(crate) fn table() {
-    println!("{HEAD}");
+    println!("{HEAD} | least and median nats");
     for impacts in 1..=5 {
         for with_height in [false, true] {
             let trials = BALLS
@@ -23,7 +23,19 @@ pub(crate) fn table() {
                 heard_with(&scene, *seed, &Settings::default().height_m(height_m))
             });
             let height = if with_height { ", height known" } else { "" };
-            println!("{}", line(&format!("{impacts} impacts{height}"), &heard));
+            let mut nats: Vec<f64> = heard.iter().filter_map(|h| h.evidence_nats).collect();
+            nats.sort_by(f64::total_cmp);
+            let nats = |share: f64| {
+                let place = (share * nats.len() as f64) as usize;
+                nats.get(place)
+                    .map_or_else(|| "-".to_owned(), |n| format!("{n:.1}"))
+            };
+            println!(
+                "{} | {}, {}",
+                line(&format!("{impacts} impacts{height}"), &heard),
+                nats(0.0),
+                nats(0.5)
+            );
         }
     }
 }

@@ -20,7 +20,7 @@ const CLIPS: u64 = 25;
 /// What makes a clip from a scene with nothing but noise.
 type Change = fn(&mut Scene, &mut SplitMix64);
 
-const KINDS: [(&str, Change); 16] = [
+const KINDS: [(&str, Change); 20] = [
     ("talk", talk),
     ("words that quicken", words),
     ("a game of bats", play),
@@ -30,6 +30,10 @@ const KINDS: [(&str, Change); 16] = [
     ("steps", steps),
     ("doors", doors),
     ("knocks at random", knocks),
+    ("handling", handling),
+    ("a few claps", few_claps),
+    ("a call and steps", call_and_steps),
+    ("words with pauses", few_words),
     ("taps, equal", |s, r| {
         taps(s, r, [1.0, 1.0], 0.02, 0.0);
     }),
@@ -51,22 +55,63 @@ const KINDS: [(&str, Change); 16] = [
     ("a clock", clock),
 ];
 
+/// Sounds that come in twos and threes and then no more: little tells them from a ball that is caught.
+const PAIRS: [(&str, Change); 4] = [
+    ("three claps", |s, r| {
+        claps(s, r);
+        s.noise.taps[0].count = 3;
+    }),
+    ("two knocks", |s, r| pair(s, r, 300.0, 4_000.0)),
+    ("two claps", |s, r| pair(s, r, 700.0, 1_500.0)),
+    ("a door, open and shut", open_and_shut),
+];
+
 pub(crate) fn table(folder: Option<&Path>) {
     println!("kind                     | with a drop | of them: impacts, e, nats");
     let mut all = (0, 0);
-    for (name, change) in KINDS {
-        let seeds: Vec<u64> = (1..=CLIPS).collect();
-        let found = each(&seeds, |seed| {
-            let made = render(&scene(change, *seed), *seed).unwrap();
-            let rate = f64::from(made.truth.sample_rate_hz);
-            analyze(&made.samples, rate, &Settings::default()).unwrap()
-        });
-        add(name, &found, &mut all);
+    for with_height in [false, true] {
+        println!(
+            "{}",
+            if with_height {
+                "a height given"
+            } else {
+                "no height given"
+            }
+        );
+        for (name, change) in KINDS {
+            add(name, &clips(change, with_height), &mut all);
+        }
     }
     if let Some(folder) = folder {
         add("recordings", &recordings(folder), &mut all);
     }
     println!("{:<24} | {:>4} of {}", "all", all.0, all.1);
+    for with_height in [false, true] {
+        println!(
+            "\n{}",
+            if with_height {
+                "twos and threes, a height given"
+            } else {
+                "twos and threes, no height given"
+            }
+        );
+        for (name, change) in PAIRS {
+            add(name, &clips(change, with_height), &mut (0, 0));
+        }
+    }
+}
+
+/// Clips of a kind, listened to with a height of 0.1 to 2 m or none.
+fn clips(change: Change, with_height: bool) -> Vec<Analysis> {
+    let seeds: Vec<u64> = (1..=CLIPS).collect();
+    each(&seeds, |seed| {
+        let made = render(&scene(change, *seed), *seed).unwrap();
+        let rate = f64::from(made.truth.sample_rate_hz);
+        let mut rng = SplitMix64::new(*seed);
+        let height_m = 0.1 * 20.0_f64.powf(rng.uniform());
+        let settings = Settings::default().height_m(with_height.then_some(height_m));
+        analyze(&made.samples, rate, &settings).unwrap()
+    })
 }
 
 fn add(name: &str, found: &[Analysis], all: &mut (usize, usize)) {
@@ -233,6 +278,76 @@ fn knocks(scene: &mut Scene, rng: &mut SplitMix64) {
         per_s: between(1.0, 4.0, rng),
         level_db: -3.0,
     });
+}
+
+/// Things that are put down, taken up and rubbed: sounds of all kinds, at random.
+fn handling(scene: &mut Scene, rng: &mut SplitMix64) {
+    scene.noise.knocks = Some(Knocks {
+        per_s: between(0.3, 1.5, rng),
+        level_db: between(-20.0, -3.0, rng),
+    });
+    let things = 1 + (3.0 * rng.uniform()) as usize;
+    for _ in 0..things {
+        let taps = Taps {
+            first_s: between(0.3, 5.0, rng),
+            count: 1 + (4.0 * rng.uniform()) as usize,
+            interval_s: between(0.15, 1.5, rng),
+            interval_scatter: 0.6,
+            level_scatter_db: 6.0,
+            level_scatter: 0.6,
+            frequency_scatter: 0.1,
+            ..thing(rng, 150.0, 3_000.0, 8e-3)
+        };
+        scene.noise.taps.push(taps);
+    }
+}
+
+/// Four to seven claps.
+fn few_claps(scene: &mut Scene, rng: &mut SplitMix64) {
+    claps(scene, rng);
+    scene.noise.taps[0].count = 4 + (4.0 * rng.uniform()) as usize;
+}
+
+fn call_and_steps(scene: &mut Scene, rng: &mut SplitMix64) {
+    steps(scene, rng);
+    words(scene, rng);
+}
+
+/// Words now and then.
+fn few_words(scene: &mut Scene, rng: &mut SplitMix64) {
+    scene.noise.words = Some(Words {
+        level_db: between(-25.0, -8.0, rng),
+        every_s: between(2.0, 4.0, rng),
+    });
+}
+
+/// Two sounds of one thing.
+fn pair(scene: &mut Scene, rng: &mut SplitMix64, low_hz: f64, high_hz: f64) {
+    let two = Taps {
+        first_s: between(0.5, 5.0, rng),
+        count: 2,
+        interval_s: between(0.15, 1.5, rng),
+        level_scatter_db: 3.0,
+        level_scatter: 0.4,
+        frequency_scatter: 0.05,
+        ..thing(rng, low_hz, high_hz, 5e-3)
+    };
+    scene.noise.taps = vec![two];
+}
+
+/// A latch, and a slam a while later.
+fn open_and_shut(scene: &mut Scene, rng: &mut SplitMix64) {
+    let latch = Taps {
+        first_s: between(0.5, 2.0, rng),
+        count: 1,
+        ..thing(rng, 400.0, 1_500.0, 8e-3)
+    };
+    let slam = Taps {
+        first_s: latch.first_s + between(0.4, 4.0, rng),
+        count: 1,
+        ..thing(rng, 70.0, 300.0, 30e-3)
+    };
+    scene.noise.taps = vec![latch, slam];
 }
 
 /// A row of taps whose intervals change by a factor between two.

@@ -5,7 +5,8 @@ use super::bounce::{bounce, rebound_height_std_m};
 use super::model::Modelled;
 use super::stretch::Stretch;
 use super::tail::Followed;
-use super::{Settings, model, rejected, warnings};
+use super::warnings::FEWEST_OF_CHAIN;
+use super::{Settings, few, model, rejected, warnings};
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::Flights;
@@ -49,6 +50,9 @@ impl Measured {
     /// The drop in a recording of which so much was listened to: if the ball would go on longer, there is no end and no
     /// total time.
     pub(super) fn within(self, extent: Extent, settings: &Settings) -> Result<Drop, Error> {
+        if self.bounces < FEWEST_OF_CHAIN {
+            return self.of_few(extent, settings);
+        }
         let (timed, modelled) = (&self.timed, self.modelled);
         let flights = Flights::between(timed);
         let ratio = flights.ratio();
@@ -66,17 +70,13 @@ impl Measured {
         let of_height = height
             .warning
             .filter(|w| cut.is_none() || w.code != WarningCode::EndedEarly);
-        let mut warnings = self.warnings;
-        warnings.extend(of_height);
-        warnings.extend(modelled.warnings);
-        warnings.extend(self.given);
-        warnings.extend(cut);
-        warnings.extend(agreement.and_then(|a| a.warning()));
+        let warnings = of_height.into_iter().chain(modelled.warnings);
+        let warnings = warnings.chain(self.given).chain(cut);
+        let warnings = warnings.chain(agreement.and_then(|a| a.warning()));
         Ok(Drop {
             channel: extent.first_channel + self.channel + 1,
             bounces: self.bounces,
-            observed_time_s: timed.last().map_or(0.0, |i| i.time_s)
-                - timed.first().map_or(0.0, |i| i.time_s),
+            observed_time_s: observed_s(timed),
             total_time_s: total.map(|t| t.total_time_s),
             restitution: modelled.restitution,
             estimates,
@@ -89,10 +89,49 @@ impl Measured {
             budget: modelled.budget,
             evidence_nats: self.evidence_nats,
             rejected: self.rejected,
-            warnings,
+            warnings: self.warnings.into_iter().chain(warnings).collect(),
             impacts: self.impacts,
         })
     }
+
+    /// The drop where too few impacts were heard for a scatter, a trend or an end.
+    fn of_few(self, extent: Extent, settings: &Settings) -> Result<Drop, Error> {
+        let timed = &self.timed;
+        let ratio = Flights::between(timed).ratio();
+        let answer = few::answer(timed, self.modelled, settings)?;
+        // An impact before the first would not let its flight fit the height.
+        let fits = answer.first_rebound.is_some();
+        let of_sound = self.warnings.into_iter();
+        let of_sound = of_sound.filter(|w| !(fits && w.code == WarningCode::LateStart));
+        let warnings = answer.warnings.into_iter().chain(self.given);
+        let mut impacts = self.impacts;
+        few::complete(&mut impacts, answer.first_bounce, settings);
+        Ok(Drop {
+            channel: extent.first_channel + self.channel + 1,
+            bounces: self.bounces,
+            observed_time_s: observed_s(timed),
+            total_time_s: None,
+            restitution: answer.modelled.restitution,
+            estimates: estimates(ratio, None, answer.first_rebound),
+            scatter: Scatter {
+                timing_std_s: median_std(timed),
+                bounce_std: None,
+            },
+            model: answer.modelled.model,
+            ball: answer.modelled.ball,
+            budget: None,
+            evidence_nats: self.evidence_nats,
+            rejected: self.rejected,
+            warnings: of_sound.chain(warnings).collect(),
+            impacts,
+        })
+    }
+}
+
+/// From the first impact to the last, in seconds.
+fn observed_s(timed: &[Impact]) -> f64 {
+    let at = |impact: Option<&Impact>| impact.map_or(0.0, |i| i.time_s);
+    at(timed.last()) - at(timed.first())
 }
 
 /// Times the impacts of a chain and fits them.

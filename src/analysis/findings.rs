@@ -1,11 +1,13 @@
 //! The findings, scene by scene, and the analysis that they add up to.
 
 use super::Settings;
+use super::candidate::Candidate;
 use super::drop::{Extent, Measured};
+use super::few;
 use super::scene::{SceneResult, clearest};
 use super::warnings::{self, Sounds};
 use crate::Error;
-use crate::report::{Analysis, Rejected};
+use crate::report::{self, Analysis, Rejected};
 use crate::sequence::NAMED;
 
 /// Impacts that are kept, of the drops with the most evidence: an hour of one drop after another. With its document
@@ -17,6 +19,10 @@ const MOST_IMPACTS: usize = 50_000;
 pub(super) struct Findings {
     drops: Vec<Measured>,
     impacts: usize,
+    /// Two or three impacts, which count if there is no drop: the best of any scene, and what the next best is worth.
+    few: Option<few::Heard>,
+    /// The chain that comes nearest to a drop, likewise.
+    candidate: Option<Candidate>,
     /// Drops that there was no room for.
     left_out: usize,
     /// Drops that were cut in two.
@@ -49,6 +55,11 @@ impl Findings {
         self.reported_s.sort_by(f64::total_cmp);
         self.impacts += self.reported_s.len();
         self.drops.extend(scene.drops);
+        self.few = match (self.few.take(), scene.few) {
+            (Some(before), Some(now)) => Some(before.or_better(now)),
+            (before, now) => before.or(now),
+        };
+        self.candidate = nearer(self.candidate.take(), scene.candidate);
         self.keep_the_surest();
         self.rejected.extend(scene.rejected);
         self.weak += scene.weak;
@@ -91,18 +102,34 @@ impl Findings {
         self.rejected
             .sort_by(|a, b| a.1.time_s.total_cmp(&b.1.time_s));
         let mut warnings = Vec::new();
+        let candidate = self.candidate();
         if self.drops.is_empty() {
-            warnings.push(self.sounds.warning());
+            warnings.push(self.sounds.warning(candidate.as_ref()));
         }
         warnings.extend(warnings::of_memory(self.left_out, self.split));
         let drops = self.drops.into_iter().map(|m| m.within(extent, settings));
         let analysis = Analysis {
             drops: drops.collect::<Result<_, Error>>()?,
+            candidate,
             rejected: self.rejected.into_iter().map(|(_, r)| r).collect(),
             rejected_weak: self.weak,
             warnings,
         };
         Ok((channel, analysis))
+    }
+
+    /// Where there is no drop, two or three impacts become one if they are enough; else what comes nearest to a drop.
+    fn candidate(&mut self) -> Option<report::Candidate> {
+        if !self.drops.is_empty() {
+            return None;
+        }
+        let few = self.few.take();
+        if few.as_ref().is_some_and(few::Heard::is_enough) {
+            self.drops.extend(few.map(|few| few.measured));
+            return None;
+        }
+        let few = few.map(Candidate::of_few);
+        nearer(self.candidate.take(), few)?.reported()
     }
 
     /// The channel of most drops; of several, or where there are none, the clearest.
@@ -121,6 +148,13 @@ impl Findings {
         };
         let clarities: Vec<f64> = counts.iter().zip(&self.clarities).map(of_most).collect();
         clearest(&clarities)
+    }
+}
+
+fn nearer(a: Option<Candidate>, b: Option<Candidate>) -> Option<Candidate> {
+    match (a, b) {
+        (Some(a), Some(b)) => Some(a.or_nearer(b)),
+        (a, b) => a.or(b),
     }
 }
 

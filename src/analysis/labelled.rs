@@ -11,8 +11,8 @@ use crate::sequence::Chain;
 use crate::signal::sound::Sound;
 use crate::units::real;
 
-/// Fewest impacts of a drop. Derived: two flights have one ratio.
-const FEWEST: usize = 3;
+/// Fewest impacts of a drop. Derived: they bound one flight.
+const FEWEST: usize = 2;
 /// The sound of an impact, from its onset on, in seconds.
 const SOUND_S: f64 = 4e-3;
 
@@ -23,7 +23,7 @@ const SOUND_S: f64 = 4e-3;
 /// has no meaning here.
 ///
 /// # Errors
-/// [`Error::Line`] for an impact after the recording's end and for a drop of which fewer than three impacts were heard,
+/// [`Error::Line`] for an impact after the recording's end and for a drop of which fewer than two impacts were heard,
 /// [`Error::Argument`] for a setting out of range or no channels.
 pub fn analyze_labelled<C: AsRef<[f32]>>(
     channels: &[C],
@@ -62,6 +62,7 @@ pub fn analyze_labelled<C: AsRef<[f32]>>(
         first_channel + channel,
         Analysis {
             drops: drops.collect::<Result<_, Error>>()?,
+            candidate: None,
             rejected: Vec::new(),
             rejected_weak: 0,
             warnings: Vec::new(),
@@ -99,7 +100,7 @@ fn measured(
         return Err(Error::Line {
             line: marked.first().map_or(1, |m| m.line),
             problem: format!(
-                "the drop that begins here has {} impacts that were heard, a fit needs at least {FEWEST}",
+                "the drop that begins here has {} impacts that were heard, a flight needs {FEWEST}",
                 chain.heard()
             ),
         });

@@ -4,7 +4,9 @@
 
 mod agreement;
 mod bounce;
+mod candidate;
 mod drop;
+mod few;
 mod findings;
 mod labelled;
 mod listener;

@@ -1,9 +1,10 @@
 //! A scene, the part of a recording from a first rise to a last: which channel hears it best, and the drops in it.
 
+use super::candidate::Candidate;
 use super::drop::{self, Measured};
 use super::stretch::Stretch;
 use super::tail::{self, Followed};
-use super::{Settings, rejected};
+use super::{Settings, few, rejected};
 use crate::Error;
 use crate::detect::{Detector, clarity};
 use crate::event::Event;
@@ -28,6 +29,10 @@ pub(super) struct Bounds {
 pub(super) struct SceneResult {
     /// The drops, in order of time.
     pub drops: Vec<Measured>,
+    /// Two or three impacts, where there is no drop.
+    pub few: Option<few::Heard>,
+    /// The chain that comes nearest to a drop, where there is none.
+    pub candidate: Option<Candidate>,
     /// Strong events outside the drops, with their strengths.
     pub rejected: Vec<(f64, Rejected)>,
     /// Number of weaker ones.
@@ -69,8 +74,22 @@ pub(super) fn hear(
         listened_from_s: frame_time_s(bounds.listened_from, rate),
     };
     let events = heard.swap_remove(channel);
-    let found = sequence::find(&events);
+    let mut found = sequence::find(&events);
     let edge = Edge::of(&stretch, bounds.cut, &found);
+    let few = if found.drops.is_empty() {
+        few::heard(
+            &stretch,
+            &events,
+            detector,
+            edge.final_until_s,
+            channel,
+            settings,
+        )?
+    } else {
+        None
+    };
+    let candidate = found.candidate.take();
+    let candidate = candidate.map(|c| Candidate::of_chain(&stretch, c, channel, settings));
     let rejected = rejected_before(edge.final_until_s, reported_s, &events, &found);
     let weak = weak_before(edge.final_until_s, &events, &found);
     let new = found.drops.into_iter();
@@ -90,6 +109,8 @@ pub(super) fn hear(
     let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
     Ok(SceneResult {
         drops,
+        few,
+        candidate: candidate.transpose()?,
         rejected,
         weak,
         strengths: events.iter().map(|e| e.strength).collect(),

@@ -5,11 +5,13 @@ use crate::fit::Estimate;
 use crate::fit::flights::Flights;
 use crate::fit::total_time::{Missing, TotalTime, left_s};
 use crate::impact::{Impact, Status};
-use crate::report::{Warning, WarningCode};
+use crate::report::{Candidate, Warning, WarningCode};
 use crate::sequence::Chain;
 
 /// Fewest impacts without a warning: fewer flights hardly distinguish a trend of e from chance. Convention.
 const FEW_IMPACTS: usize = 6;
+/// With fewer than these [`few`](super::few) says what the answer rests on.
+pub(super) const FEWEST_OF_CHAIN: usize = 4;
 /// Samples of at least this size, as a share of full scale, count as clipped (convention) …
 const CLIPPED: f32 = 0.9999;
 /// … from this many on in the sound of the impacts.
@@ -31,8 +33,8 @@ impl Sounds {
         self.noticeable += strengths.iter().filter(|&&s| s >= NOTICEABLE).count();
     }
 
-    /// Why there is no drop, and what to do about it.
-    pub(super) fn warning(self) -> Warning {
+    /// Why there is no drop, what comes nearest to one, and what to do about it.
+    pub(super) fn warning(self, candidate: Option<&Candidate>) -> Warning {
         // The first sound rises out of the silence before it, so a recording without a scene is silent.
         if !self.sound {
             return Warning::new(
@@ -41,19 +43,22 @@ impl Sounds {
                  right input was recorded",
             );
         }
-        let message = match self.noticeable {
-            0 => "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that \
-                  the right input was recorded"
+        let message = match (candidate, self.noticeable) {
+            (Some(candidate), sharp) => format!("sharp sounds: {sharp}, but no drop beyond doubt. {}", candidate.in_words()),
+            (None, 0) => {
+                "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that the right \
+                 input was recorded"
+                    .to_owned()
+            }
+            (None, 1) => "one sharp sound, which is no flight: e takes two impacts and --height, or three. Record for longer"
                 .to_owned(),
-            1..=3 => format!(
-                "sharp sounds: {}, but a drop takes four impacts or more. Drop the ball from higher, or record for \
-                 longer",
-                self.noticeable
+            (None, sharp @ 2..=3) => format!(
+                "{sharp} sharp sounds, but no two of them are alike and a flight apart as impacts of a ball are. With --height \
+                 two impacts are enough, and the more the surer"
             ),
-            _ => format!(
-                "{} sharp sounds, but no sequence of them shrinks as the flights of a bouncing ball do. If there is a \
-                 drop, narrow the search with --start and --end",
-                self.noticeable
+            (None, sharp) => format!(
+                "{sharp} sharp sounds, but no sequence of them shrinks as the flights of a bouncing ball do. If there is a \
+                 drop, narrow the search with --start and --end"
             ),
         };
         Warning::new(WarningCode::NoDrop, message)
@@ -83,7 +88,7 @@ pub(super) fn of_memory(left_out: usize, split: usize) -> Vec<Warning> {
 pub(super) fn of_chain(stretch: &Stretch<'_>, chain: &Chain) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let (timed, heard) = (&chain.impacts, chain.heard());
-    if heard < FEW_IMPACTS {
+    if (FEWEST_OF_CHAIN..FEW_IMPACTS).contains(&heard) {
         let message = format!(
             "only {heard} impacts: the error of e rests on {} ratios. Drop from higher",
             heard - 2

@@ -17,7 +17,7 @@ pub(super) type Given<'a> = (&'a Path, Vec<Vec<Marked>>);
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Labels")]
 pub(super) struct LabelArguments {
-    /// Write the impacts as labels, by the ending for Audacity (txt), Sonic Visualiser (csv) or Praat
+    /// Write the impacts, or of no drop those that come nearest to one, as labels, by the ending for Audacity (txt), Sonic Visualiser (csv) or Praat
     #[arg(long, value_name = "OUT.txt|csv|TextGrid")]
     labels: Option<PathBuf>,
     /// Replace labels that are there and differ
@@ -65,7 +65,7 @@ impl LabelArguments {
             return Ok(());
         };
         let form = form(path, "--labels")?;
-        let text = to_labels(&report.drops, report.recording.duration_s, form);
+        let text = to_labels(&report.to_be_labelled(), report.recording.duration_s, form);
         if path.is_file() {
             let there = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
             self.spare(&there, text.as_bytes())

@@ -4,7 +4,7 @@
 //! then the next best match in the residue, until none stands out of the noise.
 
 use super::pursuit::{Pattern, Residue};
-use crate::event::Event;
+use crate::event::{Event, Profile};
 use crate::linalg::dot;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
@@ -62,6 +62,7 @@ pub fn events(
             jitter_s: (inverse_bandwidth_s * LEAST_JITTER_SHARE.max(1.0 / z)).max(LEAST_JITTER_S),
             strength: 0.5 * z * z,
             loudness: z.ln(),
+            profile: Profile::default(),
         })
         .collect();
     found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));

@@ -54,6 +54,12 @@ impl Detector {
         })
     }
 
+    /// The octaves that it listens in.
+    #[must_use]
+    pub const fn bank(&self) -> &Filterbank {
+        &self.bank
+    }
+
     /// Samples per second.
     #[must_use]
     pub const fn sample_rate_hz(&self) -> f64 {
@@ -109,6 +115,7 @@ impl Detector {
             jitter_s: evidence.jitter_s(p.index),
             strength: p.height,
             loudness: p.height.ln(),
+            profile: evidence.profile(p.index),
         }));
     }
 }

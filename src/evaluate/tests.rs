@@ -70,6 +70,7 @@ fn analysis(drops: Vec<Drop>) -> Analysis {
     Analysis {
         drops,
         rejected: Vec::new(),
+        candidate: None,
         rejected_weak: 0,
         warnings: Vec::new(),
     }

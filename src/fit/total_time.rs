@@ -74,7 +74,7 @@ const HALF_A_BOUNCE: f64 = 1.5;
 /// [`Error::Argument`] if height or gravity is not positive.
 pub fn solve(drop: &TimedDrop<'_>) -> Result<Result<TotalTime, Missing>, Error> {
     let series = BounceSeries::new(drop.height_m, drop.gravity_m_per_s2)?;
-    if let Some(missing) = missing(drop, &series) {
+    if let Some(missing) = missing_in(drop, &series) {
         return Ok(Err(missing));
     }
     let (Some(first), Some(last)) = (drop.impacts.first(), drop.impacts.last()) else {
@@ -148,7 +148,16 @@ pub fn first_rebound(drop: &TimedDrop<'_>) -> Option<Estimate> {
     })
 }
 
-fn missing(drop: &TimedDrop<'_>, series: &BounceSeries) -> Option<Missing> {
+/// What of the drop is missing, if anything is.
+///
+/// # Errors
+/// [`Error::Argument`] if height or gravity is not positive.
+pub fn missing(drop: &TimedDrop<'_>) -> Result<Option<Missing>, Error> {
+    let series = BounceSeries::new(drop.height_m, drop.gravity_m_per_s2)?;
+    Ok(missing_in(drop, &series))
+}
+
+fn missing_in(drop: &TimedDrop<'_>, series: &BounceSeries) -> Option<Missing> {
     if let Some(first_flight_s) = drop.flights.after(0) {
         let longest_s = 2.0 * series.first_fall_s();
         if first_flight_s > longest_s {
@@ -165,7 +174,8 @@ fn missing(drop: &TimedDrop<'_>, series: &BounceSeries) -> Option<Missing> {
             .map(|(_, r)| *r)
             .collect();
         let ln_ratio = early.iter().sum::<f64>() / real(early.len().max(1));
-        if (first_flight_s / longest_s).ln() < HALF_A_BOUNCE * ln_ratio {
+        // Of one flight nothing tells how much the ball loses.
+        if !early.is_empty() && (first_flight_s / longest_s).ln() < HALF_A_BOUNCE * ln_ratio {
             return Some(Missing::FirstImpact {
                 first_flight_s,
                 expected_s: longest_s * ln_ratio.exp(),

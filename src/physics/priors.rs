@@ -92,6 +92,15 @@ pub const SPEED_EXPONENT: Known = Known {
 /// [`SPEED_EXPONENT`], as what the drop showed speaks against a large one.
 pub const SPEED_EXPONENT_BEYOND: f64 = 0.05;
 
+/// ln e of a single bounce about that of its ball: standard deviation, and the half-width that holds 95 %. Derived from what
+/// balls at large scatter by: 0.003 for three in ten, 0.01 for half, 0.03 for one in seven, 0.09 for one in 25, which is what the
+/// first is of; the second allows for one bounce in fifty that is an accident of 0.3.
+pub const ONE_BOUNCE: (f64, f64) = (0.022, 0.053);
+
+/// Standard deviation of a contact time of which nothing is known, in seconds, about none: 0.1 ms for steel, and the 5 ms of a
+/// tennis ball are two of these.
+pub const UNKNOWN_CONTACT_STD_S: f64 = 2.5e-3;
+
 /// Range of the scatter of ln e from bounce to bounce: below it no ball is known, and a bounce that differs by a third is
 /// none.
 pub const BOUNCE_STD: (f64, f64) = (1e-6, 0.3);

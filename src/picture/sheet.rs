@@ -4,7 +4,7 @@ use super::bounces::Bounces;
 use super::sound::Sound;
 use super::{level, onsets, printable};
 use crate::plot::{Figure, Row};
-use crate::report::{Drop, Report, model_name, with_error};
+use crate::report::{Drop, Report, Warning, model_name, with_error};
 
 /// Width and height in pixels; without a drop there is only the level.
 const SIZE: (u32, u32) = (1400, 1560);
@@ -62,7 +62,7 @@ fn answer(drop: &Drop) -> String {
 fn without_drop(report: &Report, sound: &Sound) -> Figure {
     Figure {
         title: format!("{}: no drop found", printable(&report.file)),
-        subtitle: report.warnings.first().map(|w| w.message.clone()),
+        subtitle: report.warnings.first().map(first_sentence),
         rows: vec![Row {
             height: 1,
             panels: vec![level::panel(report, None, sound)],
@@ -70,4 +70,10 @@ fn without_drop(report: &Report, sound: &Sound) -> Figure {
         size: LEVEL_ONLY,
         density: DENSITY,
     }
+}
+
+/// The first sentence of a warning: there is room for one line.
+fn first_sentence(warning: &Warning) -> String {
+    let sentence = warning.message.split(". ").next();
+    sentence.unwrap_or_default().to_owned()
 }

@@ -24,8 +24,10 @@ words! {
     pub enum Method {
         /// By the model, over all impacts.
         LeastSquares = "least_squares",
-        /// By one ratio of flights, which has no error.
+        /// By one ratio of flights; its error is that of single bounces of balls at large.
         SingleRatio = "single_ratio",
+        /// By the height and the flight after the first impact.
+        FirstRebound = "first_rebound",
     }
 }
 

@@ -4,6 +4,7 @@
 
 mod ball;
 pub mod batch;
+mod candidate;
 pub mod csv;
 pub mod drops;
 mod estimates;
@@ -21,6 +22,7 @@ mod wrap;
 
 pub use crate::impact::Status;
 pub use ball::{Ball, ContactSource};
+pub use candidate::{Candidate, Lack};
 pub use estimates::{Estimates, Method, Restitution, Scatter};
 pub use impact::{Bounce, Impact};
 pub use model::{Given, Model, Parameters};
@@ -52,6 +54,9 @@ pub struct Report {
     pub settings: Settings,
     /// The drops in order of time.
     pub drops: Vec<Drop>,
+    /// What comes nearest to a drop where there is none; null if nothing does.
+    #[serde(default)]
+    pub candidate: Option<Candidate>,
     /// Strong events outside any drop.
     pub rejected: Vec<Rejected>,
     /// How many weaker events were left out without being listed.
@@ -78,11 +83,20 @@ impl Report {
             recording,
             settings,
             drops: analysis.drops,
+            candidate: analysis.candidate,
             rejected: analysis.rejected,
             rejected_weak: analysis.rejected_weak,
             rule,
             warnings: analysis.warnings,
         }
+    }
+
+    /// The impacts to put labels at: those of each drop, or of what comes nearest to one.
+    #[must_use]
+    pub fn to_be_labelled(&self) -> Vec<&[Impact]> {
+        let drops = self.drops.iter().map(|drop| drop.impacts.as_slice());
+        let candidate = self.candidate.iter().map(|c| c.impacts.as_slice());
+        drops.chain(candidate).collect()
     }
 
     /// Why there is no drop, in a sentence.
@@ -138,6 +152,8 @@ impl RecordingInfo {
 pub struct Analysis {
     /// The drops in order of time.
     pub drops: Vec<Drop>,
+    /// What comes nearest to a drop where there is none.
+    pub candidate: Option<Candidate>,
     /// Strong events outside any drop.
     pub rejected: Vec<Rejected>,
     /// How many weaker events were left out without being listed.

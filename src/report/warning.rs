@@ -43,6 +43,8 @@ words! {
         Lossy = "lossy",
         /// The impacts are those of labels.
         ImpactsGiven = "impacts_given",
+        /// There are only two impacts or three: e rests on the height, or on one ratio.
+        FewBounces = "few_bounces",
         /// Few flights tell the trend of e from chance badly.
         FewImpacts = "few_impacts",
         /// Impacts were not heard but inferred.

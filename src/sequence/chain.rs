@@ -44,16 +44,19 @@ pub(super) struct Track {
     pub chain: Chain,
     /// Indices of the events of the impacts heard, in order.
     pub events: Vec<usize>,
+    /// What it was made of.
+    pub steps: Vec<Step>,
 }
 
 impl Track {
-    pub(super) fn new(steps: &[Step]) -> Self {
+    pub(super) fn new(steps: Vec<Step>) -> Self {
         Self {
             chain: Chain {
-                impacts: impacts(steps),
+                impacts: impacts(&steps),
                 rejected: Vec::new(),
             },
             events: steps.iter().filter_map(|s| s.event).collect(),
+            steps,
         }
     }
 

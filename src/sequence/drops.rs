@@ -6,8 +6,9 @@ use super::clutter::Clutter;
 use super::reasons::{self, NonImpact, Reason};
 use super::reassociate::reassociated;
 use super::seeds::seeds;
+use super::shape::Shrinkage;
+use super::together::together;
 use super::track::{Scene, Step, follow};
-use crate::units::real;
 
 /// What was found among the events.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -16,18 +17,27 @@ pub struct Found {
     pub drops: Vec<Chain>,
     /// Strong events outside any drop.
     pub rejected: Vec<NonImpact>,
+    /// Where there is no drop, the chain that comes nearest to one.
+    pub candidate: Option<Candidate>,
+}
+
+/// A chain whose flights shrink, but with too little evidence for a drop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Candidate {
+    /// The chain.
+    pub chain: Chain,
+    /// The evidence that would make it a drop, in nats.
+    pub needed_nats: f64,
 }
 
 /// Evidence a chain needs to be a drop, in nats: chance rarely makes one (none in 24 recordings without a drop).
 const LEAST_EVIDENCE: f64 = 12.0;
 /// Fewest impacts heard that make a drop: three flights, whose two ratios agree.
 const FEWEST: usize = 4;
-/// Over a whole drop the flights shrink at least to this share: ticking clocks and voices do not.
-const LEAST_SHRINKAGE: f64 = 0.9;
+/// The flights shrink: nats by which a ball explains them better than a hand or a clock.
+const LEAST_SHRINKAGE: f64 = 6.0;
 /// The longest flight of a drop is at least this, in seconds: pulses of a voice are nearer together.
 const LEAST_FLIGHT_S: f64 = 0.025;
-/// No ball keeps more than this share of its speed at every bounce.
-const GREATEST_RATIO: f64 = 0.985;
 
 /// Finds the drops among events in order of time.
 #[must_use]
@@ -40,11 +50,11 @@ pub fn find(events: &[Event]) -> Found {
     let mut taken = vec![false; events.len()];
     let mut associated = vec![false; events.len()];
     let mut drops: Vec<Track> = Vec::new();
-    loop {
+    let candidate = loop {
         let left: Vec<usize> = (0..events.len()).filter(|&i| !associated[i]).collect();
-        let found = disjoint(events, &left, &drops);
+        let (found, rest) = disjoint(events, &left, &drops);
         if found.is_empty() {
-            break;
+            break rest.filter(|_| drops.is_empty());
         }
         for track in found {
             for &i in &track.events {
@@ -55,30 +65,51 @@ pub fn find(events: &[Event]) -> Found {
             }
             drops.push(track);
         }
-    }
+    };
     drops.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
-    reasons::explain(&scene, drops, &taken)
+    Found {
+        candidate,
+        ..reasons::explain(&scene, drops, &taken)
+    }
 }
 
-/// The best chains among some of the events that share none, and are no echo of one another or of the drops known.
-fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> Vec<Track> {
+/// The best chains among some of the events that share none, and are no echo of one another or of the drops known; and the best
+/// of those with too little evidence.
+fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> (Vec<Track>, Option<Candidate>) {
     let some: Vec<Event> = left.iter().map(|&i| events[i]).collect();
     let clutter = Clutter::new(&some);
     let scene = Scene::new(&some, &clutter);
     let mut tracks = tracks(&scene);
-    tracks.retain(|track| is_drop(&track.chain));
+    tracks.retain(|track| is_shaped(&track.chain));
+    let apart = apart(tracks, known, some.len());
+    let is_enough = |track: &Track| track.chain.evidence() >= LEAST_EVIDENCE;
+    let (mut found, rest): (Vec<Track>, Vec<Track>) = apart.into_iter().partition(is_enough);
+    if found.is_empty() {
+        found = together(&scene, &rest, LEAST_EVIDENCE);
+    }
+    for event in found.iter_mut().flat_map(|track| &mut track.events) {
+        *event = left[*event];
+    }
+    let candidate = rest.into_iter().next().map(|track| Candidate {
+        chain: track.chain,
+        needed_nats: LEAST_EVIDENCE,
+    });
+    (found, candidate)
+}
+
+/// The chains of most evidence that share no event and are no echo of one another or of those known, the best first.
+fn apart(mut tracks: Vec<Track>, known: &[Track], events: usize) -> Vec<Track> {
     tracks.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
-    let mut taken = vec![false; some.len()];
+    let mut taken = vec![false; events];
     let mut found: Vec<Track> = Vec::new();
-    for mut track in tracks {
+    for track in tracks {
         let mut before = known.iter().chain(&found);
         let is_known = track.events.iter().any(|&i| taken[i]);
         if is_known || before.any(|d| reasons::is_echo_of(&track.chain, &d.chain)) {
             continue;
         }
-        for event in &mut track.events {
-            taken[*event] = true;
-            *event = left[*event];
+        for &event in &track.events {
+            taken[event] = true;
         }
         found.push(track);
     }
@@ -129,7 +160,7 @@ fn tracks(scene: &Scene<'_>) -> Vec<Track> {
     let mut tracks: Vec<Track> = Vec::new();
     // The chains that each event stands in. A seed whose events all stand in one would only find it again.
     let mut known: Vec<Vec<usize>> = vec![Vec::new(); scene.events.len()];
-    let mut rates = scene.rates();
+    let mut rates = scene.rates().hopeful();
     for seed in seeds(scene) {
         let [first, second, third] = seed.map(|i| &known[i]);
         if first
@@ -151,21 +182,17 @@ fn tracks(scene: &Scene<'_>) -> Vec<Track> {
     tracks
 }
 
-fn is_drop(chain: &Chain) -> bool {
-    let flights: Vec<f64> = chain
-        .impacts
-        .windows(2)
-        .map(|w| w[1].time_s - w[0].time_s)
-        .collect();
+/// Whether a chain has the form of a drop, whatever its evidence.
+fn is_shaped(chain: &Chain) -> bool {
+    let flights = chain.impacts.windows(2);
+    let flights: Vec<f64> = flights.map(|w| w[1].time_s - w[0].time_s).collect();
     let (Some(&first), Some(&last)) = (flights.first(), flights.last()) else {
         return false;
     };
-    let ratio = (last / first).powf(1.0 / real((flights.len() - 1).max(1)));
     chain.heard() >= FEWEST
-        && chain.evidence() >= LEAST_EVIDENCE
-        && last <= LEAST_SHRINKAGE * first
         && first >= LEAST_FLIGHT_S
-        && ratio <= GREATEST_RATIO
+        && last < first
+        && Shrinkage::of(chain).is_some_and(|s| s.nats() >= LEAST_SHRINKAGE)
 }
 
 /// An event's reason for being left out, with its time.

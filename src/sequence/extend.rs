@@ -2,13 +2,17 @@
 
 use super::clutter::Rates;
 use super::flight::{Doubt, FlightLaw, GATE};
+use super::marks::{ln_likeness, ln_loudness_density};
 use super::track::{Scene, Step, chance};
 use super::{LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
+use crate::event::Profile;
 
+/// A hypothesis is given up so many nats below the best.
+const HOPELESS: f64 = 12.0;
 /// Hypotheses kept at each step: enough for an echo, a knock and a silence to compete with the true impact.
 const BEAM: usize = 5;
 /// Nats a step must earn: under chance the best match in a window earns about one, so a chain of chance events loses.
-const STEP_COST: f64 = 3.5;
+const STEP_COST: f64 = 1.0;
 /// Nats lost for an expected impact that nobody hears, where impacts are faint …
 const SILENCE_COST: f64 = 2.0;
 /// … which is below ln of this; among louder ones a silence is less likely by the square of how loud they are.
@@ -17,13 +21,17 @@ const FAINT: f64 = 10.0;
 const LONGEST_SILENCE: usize = 2;
 /// No flight is longer than the one before, up to scatter.
 const GROWTH: f64 = 1.03;
-/// Spread of the loudness from one impact to the next: it varies by a factor of two.
-const LOUDNESS_SPREAD: f64 = 0.7;
 /// Share of the newest impact in the mean loudness.
 const NEWEST_SHARE: f64 = 0.3;
-/// An impact is sought at most this share of a flight from where it is expected, however little is known.
+/// An impact is sought at most this share of a flight from where it is expected, however little is known …
 const WIDEST_WINDOW: f64 = 0.25;
+/// … but an accident may take this share of a flight more than other bounces do.
+const GREATEST_LOSS: f64 = 0.45;
+/// An accident is believed when this many bounces after it are none: a chain does not end sooner.
+pub(super) const CALM: usize = 2;
 
+/// Nats that it costs to say that the recorder lost a part of a flight. Derived: as likely as that the ball lost energy.
+const LOST_TIME_COST: f64 = std::f64::consts::LN_2;
 /// A flight that nobody heard may be longer than the longest that is followed, by this factor.
 const SLACK: f64 = 1.2;
 /// Two hypotheses are one if their times are nearer than this, in seconds, and their flights alike to this share.
@@ -50,6 +58,10 @@ pub(super) struct Hypothesis {
     /// Mean loudness of the last few impacts.
     pub loudness: f64,
     pub score: f64,
+    /// What the last impact heard was like.
+    pub profile: Profile,
+    /// Impacts heard since the last accident.
+    pub calm: usize,
 }
 
 /// Steps of all hypotheses, each knowing the one before it: pasts are shared, not copied.
@@ -86,13 +98,14 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
             next.sort_by(|a: &Hypothesis, b| b.score.total_cmp(&a.score));
             beam.clear();
             for hypothesis in next.drain(..) {
-                if beam.len() < BEAM && !beam.iter().any(|h| hypothesis.is_like(h)) {
+                let hopeless = hypothesis.score < best.score - HOPELESS;
+                if beam.len() < BEAM && !hopeless && !beam.iter().any(|h| hypothesis.is_like(h)) {
                     beam.push(hypothesis);
                 }
             }
             let heard = beam
                 .iter()
-                .filter(|h| h.doubt.unheard == 0)
+                .filter(|h| h.doubt.unheard == 0 && h.calm >= CALM)
                 .max_by(|a, b| a.score.total_cmp(&b.score));
             if let Some(&best_heard) = heard.filter(|h| h.score > best.score) {
                 best = best_heard;
@@ -122,13 +135,19 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         }
         let (earlier, later) = self.in_order(from, flight);
         let expected = from.law.expect(earlier, later, from.doubt);
-        let reach = flight * (GATE * expected.variance().sqrt()).min(WIDEST_WINDOW);
+        let reach = (GATE * expected.variance().sqrt()).min(WIDEST_WINDOW);
+        // An accident makes the later flight the shorter one, lost time any.
+        let shorter = reach.max(GREATEST_LOSS);
+        let longer = match self.way {
+            Way::Forward => reach,
+            Way::Backward => reach.max(1.0 / (1.0 - GREATEST_LOSS) - 1.0),
+        };
         let (a, b) = (
-            from.time_s + sign * (flight - reach),
-            from.time_s + sign * (flight + reach),
+            from.time_s + sign * flight * (1.0 - shorter),
+            from.time_s + sign * flight * (1.0 + longer),
         );
         for event in self.scene.between(a.min(b), a.max(b)) {
-            next.extend(self.heard(from, event));
+            self.heard(from, event, flight, next);
         }
         if from.doubt.unheard < LONGEST_SILENCE {
             let mut child = *from;
@@ -146,15 +165,17 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         }
     }
 
-    /// The hypothesis that an event is the next impact; none where silence explains it better.
-    fn heard(&mut self, from: &Hypothesis, event: usize) -> Option<Hypothesis> {
+    /// The hypotheses that an event is the next impact, where silence does not explain it better: that the flight to it is one
+    /// of the ball's, and if it is much shorter than expected, that the recorder lost the rest of it.
+    fn heard(&mut self, from: &Hypothesis, event: usize, whole_s: f64, next: &mut Vec<Hypothesis>) {
         let heard = self.scene.events[event];
         let flight = (heard.time_s - from.time_s).abs();
         let (earlier, later) = self.in_order(from, flight);
         let ratio = later / earlier;
         let flights = SHORTEST_FLIGHT_S..LONGEST_FLIGHT_S;
-        if !(ratio < GROWTH && flights.contains(&flight)) {
-            return None;
+        let is_flight = ratio < GROWTH;
+        if !flights.contains(&flight) || !(is_flight || flight < whole_s) {
+            return;
         }
         let doubt = Doubt {
             jitter_s: from.doubt.jitter_s.max(heard.jitter_s),
@@ -171,15 +192,17 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         };
         let expected_loudness = from.loudness + slower;
         let louder = heard.loudness - expected_loudness;
-        let fainter = (-louder).max(0.0) / LOUDNESS_SPREAD;
-        let ln_rate = self.rates.ln_per_s(event);
-        let gain = density - ln_rate - 0.5 * fainter * fainter - STEP_COST;
+        let ln_rate = self.rates.ln_per_s(event, flight);
+        let like = ln_likeness(&heard, &from.profile);
+        let gain = density - ln_rate + ln_loudness_density(louder) - STEP_COST + like;
         if gain < -from.silence_cost() {
-            return None;
+            return;
         }
         let mut child = *from;
-        child.law.learn(earlier, later, doubt);
+        let accident = child.law.learn(earlier, later, doubt);
+        child.calm = if accident > 0.5 { 0 } else { from.calm + 1 };
         child.flight_s = flight;
+        child.profile = heard.profile;
         child.doubt = Doubt {
             unheard: 0,
             jitter_s: heard.jitter_s,
@@ -193,7 +216,18 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
             ln_rate,
             chance: chance(ln_rate, flight),
         };
-        Some(self.after(child, step))
+        if is_flight {
+            next.push(self.after(child, step));
+        }
+        if accident > 0.5 && flight < whole_s {
+            let cut = Hypothesis {
+                law: from.law,
+                flight_s: whole_s,
+                ..child
+            };
+            let gain = gain - LOST_TIME_COST;
+            next.push(self.after(cut, Step { gain, ..step }));
+        }
     }
 
     /// The known and the new flight as earlier and later.

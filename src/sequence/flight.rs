@@ -1,10 +1,8 @@
 //! What is known of the next flight, given the flights so far.
 
+use super::scatter::{Scatter, Variances};
 use crate::linalg::dot;
-use crate::physics::priors::{
-    Known, LN_RESTITUTION, TRACKED_BOUNCE_STD, TRACKED_BOUNCE_STDS, TRACKED_CONTACT_S,
-    TRACKED_DRAG_PER_S2,
-};
+use crate::physics::priors::{Known, LN_RESTITUTION, TRACKED_CONTACT_S, TRACKED_DRAG_PER_S2};
 use crate::units::real;
 
 /// A line for ln of the flights' ratios, kept as a Kalman filter of three states with its own scatter.
@@ -24,7 +22,7 @@ pub struct FlightLaw {
     /// ρ, κ and C.
     state: [f64; STATES],
     covariance: [[f64; STATES]; STATES],
-    scatter: f64,
+    scatter: Scatter,
 }
 
 const STATES: usize = 3;
@@ -46,8 +44,8 @@ const PRIOR: [Known; STATES] = [
 ];
 /// How much ln e wanders from one bounce to the next.
 const WANDER: f64 = 3e-3;
-/// Share of the newest bounce in the scatter: a memory of the last four or five.
-const NEWEST_SHARE: f64 = 0.2;
+/// How often e stays another after an accident.
+const CHANGED: f64 = 0.3;
 /// A match farther off than this many standard deviations is none.
 pub(super) const GATE: f64 = 6.0;
 
@@ -56,28 +54,21 @@ pub(super) const GATE: f64 = 6.0;
 pub struct Expected {
     /// The expected value.
     pub mean: f64,
-    /// Its variance by the uncertainty of the law itself.
-    pub law: f64,
-    /// Its variance by the scatter of one bounce.
-    pub scatter: f64,
-    /// Its variance by the jitter of the times.
-    pub jitter: f64,
+    scatter: Scatter,
+    variances: Variances,
 }
 
 impl Expected {
-    /// The variance of all causes together.
+    /// Its variance by all causes together, accidents left out.
     #[must_use]
-    pub fn variance(&self) -> f64 {
-        self.law + self.scatter + self.jitter
+    pub(super) fn variance(&self) -> f64 {
+        self.scatter.variance(&self.variances)
     }
 
-    /// ln of the density of a deviation from the mean: Student's with four degrees of freedom,
-    /// `3/(8σ) · (1 + d²/(4σ²))^(−5/2)`.
+    /// ln of the density of a deviation from the mean.
     #[must_use]
-    pub fn ln_density(&self, deviation: f64) -> f64 {
-        let variance = self.variance();
-        -2.5 * (0.25 * deviation * deviation / variance).ln_1p() + 0.375_f64.ln()
-            - 0.5 * variance.ln()
+    pub(super) fn ln_density(&self, deviation: f64) -> f64 {
+        self.scatter.ln_density(deviation, &self.variances)
     }
 }
 
@@ -92,14 +83,14 @@ impl FlightLaw {
         Self {
             state: PRIOR.map(|known| known.value),
             covariance,
-            scatter: TRACKED_BOUNCE_STD,
+            scatter: Scatter::AT_LARGE,
         }
     }
 
     /// The same law with the scatter of balls at large: what follows may lie far from what was learnt last.
     #[must_use]
     pub const fn at_large(mut self) -> Self {
-        self.scatter = TRACKED_BOUNCE_STD;
+        self.scatter = Scatter::AT_LARGE;
         self
     }
 
@@ -110,15 +101,18 @@ impl FlightLaw {
         let jitter = doubt.jitter_s * doubt.jitter_s;
         Expected {
             mean: dot(&slopes, &self.state),
-            law: dot(&slopes, &self.gains(&slopes)),
-            // An impact that is only inferred may be off by the scatter of its flight, in both flights that it ends.
-            scatter: self.scatter * self.scatter * (1.0 + 4.0 * real(doubt.unheard)),
-            // The flights share the impact between them, so its jitter counts in both:
-            // ln T' − ln T moves by ε₂/T' − ε₁(1/T' + 1/T) + ε₀/T.
-            jitter: jitter
-                * (earlier_s.powi(-2)
-                    + later_s.powi(-2)
-                    + (1.0 / earlier_s + 1.0 / later_s).powi(2)),
+            scatter: self.scatter,
+            variances: Variances {
+                law: dot(&slopes, &self.gains(&slopes)),
+                // An impact that is only inferred may be off by the scatter of its flight, in both flights that it ends.
+                spread: 1.0 + 4.0 * real(doubt.unheard),
+                // The flights share the impact between them, so its jitter counts in both:
+                // ln T' − ln T moves by ε₂/T' − ε₁(1/T' + 1/T) + ε₀/T.
+                jitter: jitter
+                    * (earlier_s.powi(-2)
+                        + later_s.powi(-2)
+                        + (1.0 / earlier_s + 1.0 / later_s).powi(2)),
+            },
         }
     }
 
@@ -143,27 +137,26 @@ impl FlightLaw {
         earlier
     }
 
-    /// Learns from one ratio; from a stray one less, as Student's distribution weighs it.
-    pub fn learn(&mut self, earlier_s: f64, later_s: f64, doubt: Doubt) {
-        let expected = self.expect(earlier_s, later_s, doubt);
-        let deviation = (later_s / earlier_s).ln() - expected.mean;
+    /// Learns from one ratio, the less the farther it is off, as Student's distribution weighs it; gives the probability
+    /// that the bounce was an accident, after which e may be another.
+    pub fn learn(&mut self, earlier_s: f64, later_s: f64, doubt: Doubt) -> f64 {
+        let Expected {
+            mean, variances, ..
+        } = self.expect(earlier_s, later_s, doubt);
+        let deviation = (later_s / earlier_s).ln() - mean;
         let squared = deviation * deviation;
-        let weight = 5.0 / (4.0 + squared / expected.variance());
+        let lesson = self.scatter.learn(deviation, &variances);
+        let weight = 5.0 / (4.0 + squared / (variances.law + lesson.variance));
         let gains = self.gains(&self.slopes(earlier_s));
-        let variance = expected.law + (expected.scatter + expected.jitter) / weight;
+        let variance = variances.law + lesson.variance / weight;
         for (i, gain) in gains.iter().enumerate() {
             self.state[i] += gain / variance * deviation;
             for (j, other) in gains.iter().enumerate() {
                 self.covariance[i][j] -= gain * other / variance;
             }
         }
-        self.covariance[0][0] += WANDER * WANDER;
-        // Of the deviation, the bounce owns the share that its variance has.
-        let own = squared * expected.scatter / expected.variance();
-        let scatter = (1.0 - NEWEST_SHARE) * self.scatter * self.scatter + NEWEST_SHARE * own;
-        self.scatter = scatter
-            .sqrt()
-            .clamp(TRACKED_BOUNCE_STDS.0, TRACKED_BOUNCE_STDS.1);
+        self.covariance[0][0] += WANDER * WANDER + CHANGED * lesson.accident * squared;
+        lesson.accident
     }
 
     /// How ln(T'/T) depends on ρ, κ and C.

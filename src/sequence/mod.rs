@@ -7,19 +7,24 @@ pub mod chain;
 pub mod clutter;
 pub mod drops;
 mod extend;
+pub mod few;
 pub mod flight;
+mod marks;
 pub mod reasons;
 mod reassociate;
+mod scatter;
 pub mod seeds;
+mod shape;
+mod together;
 pub mod track;
 
 pub use chain::Chain;
-pub use drops::{Found, find, follow_again};
+pub use drops::{Candidate, Found, find, follow_again};
 pub use reasons::{NAMED, NonImpact, Reason, is_echo_of};
 
 use crate::event::Event;
 
-/// Longest flight followed, in seconds: a rebound of 5 m.
-const LONGEST_FLIGHT_S: f64 = 2.0;
+/// Longest flight followed, in seconds: a rebound of 20 m, or one of 1 m in slow motion.
+const LONGEST_FLIGHT_S: f64 = 4.0;
 /// Shortest flight followed, in seconds: impacts nearer than that are one sound.
 const SHORTEST_FLIGHT_S: f64 = 4e-3;

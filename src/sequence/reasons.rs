@@ -136,6 +136,7 @@ pub(super) fn explain(scene: &Scene<'_>, mut drops: Vec<Track>, taken: &[bool]) 
     Found {
         drops: drops.into_iter().map(|track| track.chain).collect(),
         rejected,
+        candidate: None,
     }
 }
 

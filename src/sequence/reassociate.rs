@@ -31,17 +31,17 @@ fn within(most: usize, scene: &Scene<'_>, mut steps: Vec<Step>) -> Track {
         if let Some(first) = versions.iter().position(|v| is_same(&v.steps, &steps)) {
             // The same impacts, judged as they stand now.
             versions[first].steps = steps;
-            return Track::new(&best(scene, versions.split_off(first)));
+            return Track::new(best(scene, versions.split_off(first)));
         }
         let Some(seed) = best_seed(&steps) else {
-            return Track::new(&steps);
+            return Track::new(steps);
         };
-        let associated = reasons::associated(scene, &Track::new(&steps));
+        let associated = reasons::associated(scene, &Track::new(steps.clone()));
         let next = follow(scene, &mut scene.rates_without(&associated), seed);
         versions.push(Version { steps, associated });
         steps = next;
         if versions.len() == most {
-            return Track::new(&best(scene, versions));
+            return Track::new(best(scene, versions));
         }
     }
 }
@@ -68,10 +68,10 @@ fn best(scene: &Scene<'_>, versions: Vec<Version>) -> Vec<Step> {
 }
 
 /// The steps among other clutter: where it is the rarer, an event earns the more.
-fn judged(mut steps: Vec<Step>, rates: &mut Rates<'_>) -> Vec<Step> {
+pub(super) fn judged(mut steps: Vec<Step>, rates: &mut Rates<'_>) -> Vec<Step> {
     for step in &mut steps {
         if let Some(event) = step.event {
-            let ln_rate = rates.ln_per_s(event);
+            let ln_rate = rates.ln_per_s(event, f64::INFINITY);
             step.gain += step.ln_rate - ln_rate;
             step.ln_rate = ln_rate;
         }
@@ -94,6 +94,7 @@ fn best_seed(steps: &[Step]) -> Option<[usize; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::event::Profile;
     use crate::random::SplitMix64;
     use crate::sequence::Event;
     use crate::sequence::clutter::Clutter;
@@ -109,6 +110,7 @@ mod tests {
                 jitter_s: 2e-4,
                 strength,
                 loudness: strength.ln(),
+                profile: Profile::default(),
             });
         };
         let (mut at_s, mut flight_s) = (1.0, 0.5);
@@ -144,7 +146,8 @@ mod tests {
                 // A chain that does not come out again when it is followed anew is one of a cycle.
                 let associated = reasons::associated(&scene, &usual);
                 let mut rates = scene.rates_without(&associated);
-                let again = best_seed(&steps).map(|s| Track::new(&follow(&scene, &mut rates, s)));
+                let again =
+                    best_seed(&usual.steps).map(|s| Track::new(follow(&scene, &mut rates, s)));
                 cycles += usize::from(again.is_some_and(|a| a.events != usual.events));
                 followed += 1;
             }

@@ -1,8 +1,10 @@
 //! Three events from which a drop may be followed.
 
 use super::flight::{Doubt, FlightLaw};
+use super::marks::ln_sounds;
 use super::track::Scene;
 use super::{Event, LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
+use crate::physics::priors::LN_RESTITUTION;
 
 /// The strongest events within this many seconds …
 const NEIGHBOURHOOD_S: f64 = 0.6;
@@ -11,9 +13,9 @@ const INITIATORS: usize = 10;
 /// A chain starts with events of at least this strength, in nats: white noise offers two a second.
 const LEAST_STRENGTH: f64 = 9.0;
 /// Seeds kept for each second of the recording.
-const SEEDS_PER_S: usize = 12;
+const SEEDS_PER_S: usize = 6;
 /// Ratios of neighbouring flights that may start a chain.
-const RATIOS: (f64, f64) = (0.25, 1.0);
+const RATIOS: (f64, f64) = (0.15, 1.0);
 
 /// A seed with what it promises, in nats.
 type Scored = (f64, [usize; 3]);
@@ -28,7 +30,7 @@ pub fn seeds(scene: &Scene<'_>) -> Vec<[usize; 3]> {
         .map(|event| Initiator {
             event,
             time_s: scene.events[event].time_s,
-            worth: -rates.ln_per_s(event),
+            worth: -rates.ln_per_s(event, f64::INFINITY),
         })
         .collect();
     let mut found: Vec<Scored> = Vec::new();
@@ -105,14 +107,27 @@ fn triples_around(
                 continue;
             }
             let triple = [*first, second, *third];
-            // Rare events and short flights say more: chance fills a long flight with anything.
-            let worth: f64 = triple.iter().map(|l| l.worth).sum::<f64>() - flight.ln() - next.ln();
             found.push((
-                worth + neighbour(scene, initiators, triple),
+                promise(scene, triple) + neighbour(scene, initiators, triple),
                 triple.map(|l| l.event),
             ));
         }
     }
+}
+
+/// What three impacts are worth, in nats, but for a constant.
+fn promise(scene: &Scene<'_>, triple: [Initiator; 3]) -> f64 {
+    let [t0, t1, t2] = triple.map(|l| l.time_s);
+    let (flight, next) = (t1 - t0, t2 - t1);
+    let ratio = next / flight;
+    let sounds = |a: Initiator, b: Initiator| {
+        ln_sounds(&scene.events[a.event], &scene.events[b.event], ratio)
+    };
+    let off = (ratio.ln() - LN_RESTITUTION.value) / LN_RESTITUTION.std;
+    // Rare events and short flights say more: chance fills a long flight with anything.
+    triple.iter().map(|l| l.worth).sum::<f64>() - flight.ln() - next.ln() - 0.5 * off * off
+        + sounds(triple[0], triple[1])
+        + sounds(triple[1], triple[2])
 }
 
 /// An impact before or after three others is sought within this share of its flight.
@@ -133,6 +148,9 @@ fn neighbour(scene: &Scene<'_>, initiators: &[Initiator], triple: [Initiator; 3]
     );
     let (next, previous) = (law.next_s(t2 - t1), law.previous_s(t1 - t0));
     let worth = |centre_s: f64, flight_s: f64| {
+        if !(SHORTEST_FLIGHT_S..=LONGEST_FLIGHT_S).contains(&flight_s) {
+            return 0.0;
+        }
         let reach = NEIGHBOUR_REACH * flight_s;
         let from = initiators.partition_point(|l| l.time_s < centre_s - reach);
         let near = initiators[from..]

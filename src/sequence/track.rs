@@ -1,22 +1,23 @@
 //! Following a drop from three of its impacts, forwards and backwards in time.
 
 use super::clutter::{Clutter, Rates};
-use super::extend::{Extension, Hypothesis, Way};
+use super::extend::{CALM, Extension, Hypothesis, Way};
 use super::flight::{Doubt, FlightLaw};
-use super::{Event, LONGEST_FLIGHT_S};
+use super::marks::{LOUDNESS_AT_LARGE, ln_sounds};
+use super::{Event, LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
 
 /// Everything that tracking looks at and does not change.
 #[derive(Debug)]
 pub struct Scene<'a> {
     /// The events in order of time.
     pub events: &'a [Event],
-    clutter: &'a Clutter,
+    clutter: &'a Clutter<'a>,
 }
 
 impl<'a> Scene<'a> {
     /// Events and the rates that were learnt from them.
     #[must_use]
-    pub const fn new(events: &'a [Event], clutter: &'a Clutter) -> Self {
+    pub const fn new(events: &'a [Event], clutter: &'a Clutter<'a>) -> Self {
         Self { events, clutter }
     }
 
@@ -29,7 +30,7 @@ impl<'a> Scene<'a> {
     /// The rates of clutter where some events, indices in order, are associated and so no clutter.
     #[must_use]
     pub fn rates_without(&self, associated: &[usize]) -> Rates<'_> {
-        Rates::new(self.events, self.clutter, associated)
+        Rates::new(self.clutter, associated)
     }
 
     /// The length of the recording in seconds, at least one.
@@ -88,12 +89,15 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
     let expected = law.expect(first, second, doubt);
     let ratio_density = expected.ln_density((second / first).ln() - expected.mean) - second.ln();
     law.learn(first, second, doubt);
+    let sounds = |a: usize, b: usize| ln_sounds(&scene.events[a], &scene.events[b], second / first);
     // The first impact may be anywhere in the recording, the second anywhere within the longest flight.
-    let ln_rates = seed.map(|i| rates.ln_per_s(i));
+    let ln_rates = seed.map(|i| rates.ln_per_s(i, second));
+    let profiles = seed.map(|i| scene.events[i].profile);
     let gains = [
-        -ln_rates[0] - scene.duration_s().ln(),
-        -ln_rates[1] - LONGEST_FLIGHT_S.ln(),
-        ratio_density - ln_rates[2],
+        -ln_rates[0] - scene.duration_s().ln() + LOUDNESS_AT_LARGE.ln(),
+        -ln_rates[1] - (second * (LONGEST_FLIGHT_S / SHORTEST_FLIGHT_S).ln()).ln()
+            + sounds(seed[0], seed[1]),
+        ratio_density - ln_rates[2] + sounds(seed[1], seed[2]),
     ];
     let middle: Vec<Step> = (0..3)
         .map(|i| Step {
@@ -113,7 +117,9 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
         flight_s: second,
         doubt,
         loudness,
+        profile: profiles[2],
         score: 0.0,
+        calm: CALM,
     };
     let forward = Extension::new(scene, rates, Way::Forward).from(start);
     let mut law_back = law;
@@ -125,6 +131,7 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
         law: law_back.at_large(),
         time_s: t[0],
         flight_s: first,
+        profile: profiles[0],
         ..start
     };
     let backward = Extension::new(scene, rates, Way::Backward).from(start);

@@ -5,6 +5,7 @@
 //! are timed together (`joint`) by the sound that they have in common, which uses all of it.
 
 mod joint;
+mod pair;
 
 use crate::impact::Impact;
 use crate::signal::constant_fraction;
@@ -55,11 +56,16 @@ pub fn refine(sound: &Whitened<'_>, impacts: &[Impact], timing: Timing) -> Refin
         Timing::Correlation => joint::times(sound, &heard),
         Timing::Envelope | Timing::Fraction => None,
     };
+    let pair = match (timing, heard.as_slice()) {
+        (Timing::Correlation, &[first, second]) => pair::times(sound, [first, second]),
+        _ => None,
+    };
     // One drop is timed in one way: what its impacts have in common then cancels.
-    let (timed, template) = match (together, timing) {
-        (Some((timed, template)), _) => (timed, Some(template)),
-        (None, Timing::Envelope) => (heard, None),
-        (None, Timing::Fraction | Timing::Correlation) => {
+    let (timed, template) = match (together, pair, timing) {
+        (Some((timed, template)), ..) => (timed, Some(template)),
+        (None, Some(pair), _) => (pair.to_vec(), None),
+        (None, None, Timing::Envelope) => (heard, None),
+        (None, None, Timing::Fraction | Timing::Correlation) => {
             let each = heard.iter();
             let timed = each.map(|&coarse| by_fraction(sound, coarse).unwrap_or(coarse));
             (timed.collect(), None)

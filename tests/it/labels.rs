@@ -156,8 +156,8 @@ fn what_cannot_be_used_is_said_in_one_line() {
             "line 3: 99 s is after the recording ends",
         ),
         (
-            file("few.txt", "1\t1\ta\n2\t2\tb\n"),
-            "line 1: the drop that begins here has 2 impacts that were heard",
+            file("few.txt", "1\t1\ta\n2\t2\tinferred\n"),
+            "line 1: the drop that begins here has 1 impacts that were heard, a flight needs 2",
         ),
         (file("empty.txt", "\n"), "there are no labels"),
         (

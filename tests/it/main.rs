@@ -16,6 +16,7 @@ mod cli_pictures;
 mod cli_suite;
 mod compressed;
 mod examples;
+mod few;
 mod first_minute;
 mod labels;
 mod licences;

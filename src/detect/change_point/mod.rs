@@ -2,6 +2,7 @@
 
 use super::quantization::quantization_density;
 use super::running_mean::{FALLING_SHARE, mean_ratios};
+use crate::event::Profile;
 use crate::signal::filterbank::{Band, Filterbank};
 use crate::signal::logarithm::ln_from_one;
 use crate::units::{narrow, real};
@@ -108,6 +109,12 @@ impl Evidence {
             .max_by(|&a, &b| likelihood[a].total_cmp(&likelihood[b]))
             .unwrap_or(0);
         real(from + best)
+    }
+
+    /// How the evidence of a peak is spread over the bands.
+    #[must_use]
+    pub fn profile(&self, peak: usize) -> Profile {
+        Profile::new(self.bands.iter().map(|band| band.scale * band.own[peak]))
     }
 
     /// Standard deviation of the time of a peak, in seconds.

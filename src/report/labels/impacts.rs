@@ -2,7 +2,7 @@
 
 use super::{Form, Label};
 use crate::Error;
-use crate::report::{Drop, Impact, Status};
+use crate::report::{Impact, Status};
 
 /// An impact that a label stands for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -21,10 +21,10 @@ pub struct Marked {
 }
 
 /// Time and text of the label of each impact, in order of time.
-pub(super) fn labels(drops: &[Drop]) -> Vec<(f64, String)> {
+pub(super) fn labels(drops: &[&[Impact]]) -> Vec<(f64, String)> {
     let mut labels = Vec::new();
     for (drop, d) in drops.iter().zip(1..) {
-        for (impact, number) in drop.impacts.iter().zip(1..) {
+        for (impact, number) in drop.iter().zip(1..) {
             let number = if drops.len() > 1 {
                 format!("{d}:{number}")
             } else {

@@ -17,7 +17,7 @@ mod text_grid;
 
 pub use impacts::{Marked, drops};
 
-use super::Drop;
+use super::Impact;
 use crate::Error;
 
 /// Which tool labels are for.
@@ -72,9 +72,9 @@ pub struct Label {
     pub line: usize,
 }
 
-/// The impacts of these drops as labels, in order of time; the recording lasts for `duration_s`.
+/// The impacts of each drop as labels, in order of time; the recording lasts for `duration_s`.
 #[must_use]
-pub fn to_labels(drops: &[Drop], duration_s: f64, form: Form) -> String {
+pub fn to_labels(drops: &[&[Impact]], duration_s: f64, form: Form) -> String {
     let labels = impacts::labels(drops);
     match form {
         Form::Audacity => audacity::write(&labels),

@@ -1,0 +1,104 @@
+//! Drops of two or three impacts, which are sought where no chain was found.
+
+mod rebound;
+mod sounds;
+
+pub(super) use rebound::{answer, complete};
+
+use super::Settings;
+use super::drop::{self, Measured};
+use super::stretch::Stretch;
+use super::tail::Followed;
+use crate::Error;
+use crate::detect::Detector;
+use crate::event::Event;
+use crate::impact::{Impact, Status};
+use crate::physics::BounceSeries;
+use crate::sequence::Chain;
+use crate::sequence::few::{FewImpacts, few_impacts};
+use crate::units::real;
+
+/// Two or three impacts that stand out in a scene.
+#[derive(Debug)]
+pub(super) struct Heard {
+    pub found: FewImpacts,
+    pub measured: Measured,
+}
+
+impl Heard {
+    /// The better of two scenes, to which the other is a rival.
+    pub(super) fn or_better(self, other: Self) -> Self {
+        let (mut best, worse) = if other.found.nats > self.found.nats {
+            (other, self)
+        } else {
+            (self, other)
+        };
+        best.found.rival_nats = best.found.rival_nats.max(worse.found.nats);
+        best
+    }
+
+    /// Whether they are a drop.
+    pub(super) fn is_enough(&self) -> bool {
+        self.found.are_enough()
+    }
+}
+
+/// The two or three sounds of a scene that a ball explains best, of those before `until_s`.
+///
+/// # Errors
+/// [`Error::Argument`] for a setting out of range.
+pub(super) fn heard(
+    stretch: &Stretch<'_>,
+    events: &[Event],
+    detector: &Detector,
+    until_s: f64,
+    channel: usize,
+    settings: &Settings,
+) -> Result<Option<Heard>, Error> {
+    let sounds = sounds::clear_sounds(&stretch.sound, detector, events);
+    let before = &sounds[..sounds.partition_point(|s| s.time_s < until_s)];
+    let duration_s = stretch.sound.end_s() - stretch.sound.start_s;
+    let longest_s = longest_flight_s(settings)?;
+    let Some(found) = few_impacts(before, duration_s, longest_s) else {
+        return Ok(None);
+    };
+    let nats = found.nats / real(found.impacts.len());
+    let impact = |sound: &_| {
+        let &crate::sequence::few::ClearSound {
+            time_s, jitter_s, ..
+        } = sound;
+        Impact {
+            time_s,
+            std_s: jitter_s,
+            status: Status::Heard,
+            nats,
+        }
+    };
+    let chain = Chain {
+        impacts: found.impacts.iter().map(impact).collect(),
+        rejected: Vec::new(),
+    };
+    let followed = Followed {
+        sound: stretch.whitened(&chain),
+        chain,
+        timed: None,
+    };
+    let measured = drop::measure(stretch, followed, channel, settings)?;
+    Ok(Some(Heard { found, measured }))
+}
+
+/// The first flight of a ball that loses nothing, from the height as far as it is known: `2√(2h/g)`.
+fn longest_flight_s(settings: &Settings) -> Result<Option<f64>, Error> {
+    let Some(height_m) = settings.height_m else {
+        return Ok(None);
+    };
+    let highest_m = height_m + HEIGHT_REACH * settings.height_std_m;
+    let series = BounceSeries::new(highest_m, settings.gravity_m_per_s2)?;
+    Ok(Some(2.0 * series.first_fall_s()))
+}
+
+/// A height may be off by so many standard errors.
+const HEIGHT_REACH: f64 = 2.0;
+
+#[cfg(test)]
+mod tests;
