@@ -294,12 +294,12 @@ impl Tally {
                 continue;
             };
             tally.drops += 1;
-            if let Some(selection) = select(&impacts, &inputs, cell.ball.choice()) {
+            if let Some(selection) = select(&impacts, &[], &inputs, cell.ball.choice()) {
                 tally.add(&selection, cell, ln_e);
             }
             if i % 10 == 0 {
                 tally.auto_drops += 1;
-                if let Some(auto) = select(&impacts, &inputs, Choice::Auto) {
+                if let Some(auto) = select(&impacts, &[], &inputs, Choice::Auto) {
                     tally.auto_held += usize::from(holds(&auto, ln_e));
                     tally.auto_right += usize::from(is_right(&auto, cell.ball.kind()));
                 }

@@ -6,14 +6,17 @@ use super::model::Modelled;
 use super::stretch::Stretch;
 use super::tail::Followed;
 use super::warnings::FEWEST_OF_CHAIN;
-use super::{Settings, few, model, rejected, warnings};
+use super::{Settings, few, irregular, model, rejected, warnings};
 use crate::Error;
 use crate::fit::Estimate;
 use crate::fit::flights::Flights;
+use crate::fit::irregular::Regularity;
 use crate::fit::total_time::{self, Missing, TotalTime};
 use crate::impact::Impact;
 use crate::physics::BallModel;
-use crate::report::{self, Drop, Estimates, Rejected, Scatter, Warning, WarningCode};
+use crate::report::{
+    self, Drop, Estimates, Irregular, IrregularKind, Rejected, Scatter, Warning, WarningCode,
+};
 use crate::sequence::Chain;
 use crate::statistics::upper_median;
 use crate::timing::Timing;
@@ -30,6 +33,8 @@ pub(super) struct Measured {
     timed: Vec<Impact>,
     bounces: usize,
     rejected: Vec<Rejected>,
+    regularity: Regularity,
+    irregular: Vec<Irregular>,
     modelled: Modelled,
     /// Warnings by impacts and sound.
     warnings: Vec<Warning>,
@@ -54,7 +59,7 @@ impl Measured {
             return self.of_few(extent, settings);
         }
         let (timed, modelled) = (&self.timed, self.modelled);
-        let flights = Flights::between(timed);
+        let flights = Flights::regular(timed, &self.regularity);
         let ratio = flights.ratio();
         let cut = warnings::of_end(timed, &flights, ratio, extent.end_s);
         let height = match (ratio, settings.height_m) {
@@ -63,9 +68,14 @@ impl Measured {
             }
             _ => ByHeight::default(),
         };
-        let total = height.total.filter(|_| cut.is_none());
-        let estimates = estimates(ratio, total, height.first_rebound);
+        let irregular = self.irregular;
+        let lost = irregular.iter().any(|i| i.kind == IrregularKind::LostTime);
+        let total = height.total.filter(|_| cut.is_none() && !lost);
+        // Equations (25) and (30) are those of one e, and the estimates can agree only by one.
+        let one = irregular.is_empty();
+        let estimates = estimates(ratio, total.filter(|_| one), height.first_rebound);
         let agreement = Agreement::of(timed, &flights, &estimates, &modelled, settings)?;
+        let agreement = agreement.filter(|_| one);
         // That the recording ends early says it all.
         let of_height = height
             .warning
@@ -73,6 +83,7 @@ impl Measured {
         let warnings = of_height.into_iter().chain(modelled.warnings);
         let warnings = warnings.chain(self.given).chain(cut);
         let warnings = warnings.chain(agreement.and_then(|a| a.warning()));
+        let warnings = warnings.chain(irregular::warnings(&irregular, self.regularity.alternation));
         Ok(Drop {
             channel: extent.first_channel + self.channel + 1,
             bounces: self.bounces,
@@ -88,6 +99,7 @@ impl Measured {
             ball: modelled.ball,
             budget: modelled.budget,
             evidence_nats: self.evidence_nats,
+            irregular,
             rejected: self.rejected,
             warnings: self.warnings.into_iter().chain(warnings).collect(),
             impacts: self.impacts,
@@ -121,6 +133,7 @@ impl Measured {
             ball: answer.modelled.ball,
             budget: None,
             evidence_nats: self.evidence_nats,
+            irregular: Vec::new(),
             rejected: self.rejected,
             warnings: of_sound.chain(warnings).collect(),
             impacts,
@@ -160,7 +173,8 @@ pub(super) fn fit(
     settings: &Settings,
 ) -> Result<Measured, Error> {
     let timed = &chain.impacts;
-    let modelled = model::fitted(timed, settings)?;
+    let regularity = Regularity::of(timed);
+    let modelled = model::fitted(timed, &regularity.part, &regularity, settings)?;
     let mut warnings = warnings::of_chain(stretch, &chain);
     warnings.extend(warnings::of_contact(settings.contact_time_s, timed));
     let ball = modelled.ball_model.as_ref();
@@ -170,6 +184,8 @@ pub(super) fn fit(
         evidence_nats: chain.evidence(),
         bounces: chain.heard(),
         rejected: chain.rejected.iter().map(rejected).collect(),
+        irregular: irregular::reported(timed, &regularity, settings)?,
+        regularity,
         modelled,
         warnings,
         given: None,
@@ -284,6 +300,8 @@ impl Measured {
             timed: Vec::new(),
             bounces: 0,
             rejected: Vec::new(),
+            regularity: Regularity::of(&[]),
+            irregular: Vec::new(),
             modelled: Modelled::default(),
             warnings: Vec::new(),
             given: None,

@@ -8,6 +8,7 @@ mod candidate;
 mod drop;
 mod few;
 mod findings;
+mod irregular;
 mod labelled;
 mod listener;
 mod model;

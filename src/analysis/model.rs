@@ -1,8 +1,11 @@
 //! From the times of a drop to its restitution and its ball, by the model that the recording supports.
 
+use std::ops::Range;
+
 use super::Settings;
 use crate::Error;
 use crate::fit::Estimate;
+use crate::fit::irregular::Regularity;
 use crate::fit::model::{Budget, Parameter};
 use crate::fit::model_selection::{Inputs, Selection, select};
 use crate::impact::Impact;
@@ -58,10 +61,18 @@ pub(super) struct Modelled {
     pub warnings: Vec<Warning>,
 }
 
-/// Fits a drop.
-pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, Error> {
+/// Fits a part of a drop without its irregular bounces.
+pub(super) fn fitted(
+    timed: &[Impact],
+    part: &Range<usize>,
+    regularity: &Regularity,
+    settings: &Settings,
+) -> Result<Modelled, Error> {
     let inputs = inputs(settings)?;
-    let Some(selection) = select(timed, &inputs, settings.model) else {
+    let odd = regularity.odd_in(part).into_iter();
+    let odd: Vec<usize> = odd.map(|bounce| bounce - part.start).collect();
+    let selected = select(&timed[part.clone()], &odd, &inputs, settings.model);
+    let Some(selection) = selected else {
         return Ok(Modelled::default());
     };
     let fit = &selection.fit;
@@ -85,7 +96,7 @@ pub(super) fn fitted(timed: &[Impact], settings: &Settings) -> Result<Modelled, 
         contact: fit.contact_s,
         drag: fit.drag_per_s2,
         by_speed: selection.selected.is_by_speed(),
-        warnings: warnings(&selection),
+        warnings: warnings(&selection, part.start),
         model: model(&selection, &inputs),
     })
 }
@@ -182,11 +193,12 @@ fn ball(
     })
 }
 
-fn warnings(selection: &Selection) -> Vec<Warning> {
+/// Warnings by a fit whose first impact has this number.
+fn warnings(selection: &Selection, first: usize) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let outliers = &selection.fit.outliers;
     let numbers = |of: &[usize]| {
-        let numbers: Vec<String> = of.iter().map(|i| (i + 1).to_string()).collect();
+        let numbers: Vec<String> = of.iter().map(|i| (first + i + 1).to_string()).collect();
         numbers.join(", ")
     };
     if !outliers.bounces.is_empty() {

@@ -138,7 +138,13 @@ fn the_air_that_slows_a_heavy_ball_unseen_is_in_the_interval() {
     let mut rng = SplitMix64::new(16);
     let (mut held, mut told) = (0, 0);
     for _ in 0..100 {
-        let selection = select(&made.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
+        let selection = select(
+            &made.impacts(&mut rng),
+            &[],
+            &Inputs::default(),
+            Choice::Auto,
+        )
+        .unwrap();
         let [low, high] = selection.fit.ln_restitution.interval95.unwrap();
         held += usize::from((low..high).contains(&made.e.ln()));
         told += usize::from(selection.fit.drag_per_s2.is_some());
@@ -149,14 +155,26 @@ fn the_air_that_slows_a_heavy_ball_unseen_is_in_the_interval() {
 #[test]
 fn models_are_selected_as_far_as_the_drop_supports() {
     let mut rng = SplitMix64::new(5);
-    let plain = select(&STEEL.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
+    let plain = select(
+        &STEEL.impacts(&mut rng),
+        &[],
+        &Inputs::default(),
+        Choice::Auto,
+    )
+    .unwrap();
     assert_eq!(plain.selected, ModelKind::Constant);
     let soft = Made {
         contact_s: 5e-3,
         bounce_std: 0.002,
         ..STEEL
     };
-    let soft = select(&soft.impacts(&mut rng), &Inputs::default(), Choice::Auto).unwrap();
+    let soft = select(
+        &soft.impacts(&mut rng),
+        &[],
+        &Inputs::default(),
+        Choice::Auto,
+    )
+    .unwrap();
     assert_eq!(soft.selected, ModelKind::Contact);
     assert!((soft.fit.contact_s.unwrap().value - 5e-3).abs() < 1e-3);
     let light = Made {
@@ -166,7 +184,13 @@ fn models_are_selected_as_far_as_the_drop_supports() {
         bounce_std: 0.002,
         ..STEEL
     };
-    let light = select(&light.impacts(&mut rng), &Inputs::default(), Choice::Drag).unwrap();
+    let light = select(
+        &light.impacts(&mut rng),
+        &[],
+        &Inputs::default(),
+        Choice::Drag,
+    )
+    .unwrap();
     let drag = light.fit.drag_per_s2.unwrap();
     assert!((drag.value - (9.81_f64 / 8.3).powi(2)).abs() < 4.0 * drag.std.unwrap());
     assert!((light.fit.ln_restitution.value.exp() - 0.93).abs() < 2e-3);
@@ -186,9 +210,31 @@ fn a_drag_that_is_known_is_in_every_model_and_no_candidate_of_its_own() {
             std: 0.1,
         }),
     };
-    let selection = select(&light.impacts(&mut rng), &inputs, Choice::Auto).unwrap();
+    let selection = select(&light.impacts(&mut rng), &[], &inputs, Choice::Auto).unwrap();
     assert!(selection.fit.drag_per_s2.is_some());
     assert!(selection.candidates.iter().all(|c| !c.model.has_drag()));
+}
+
+#[test]
+fn a_bounce_that_is_left_out_may_have_lost_any_part_of_the_speed() {
+    let mut rng = SplitMix64::new(11);
+    let clean = STEEL.impacts(&mut rng);
+    let with_loss = |share: f64| {
+        let mut impacts = clean.clone();
+        let at = clean[8].time_s;
+        for impact in &mut impacts[9..] {
+            impact.time_s = at + share * (impact.time_s - at);
+        }
+        let selection = select(&impacts, &[8], &Inputs::default(), Choice::Constant).unwrap();
+        selection.fit.ln_restitution
+    };
+    let (less, more) = (with_loss(0.9), with_loss(0.7));
+    let std = less.std.unwrap();
+    assert!(
+        (less.value - more.value).abs() < 0.1 * std,
+        "{less:?} {more:?}"
+    );
+    assert!((std / more.std.unwrap() - 1.0).abs() < 0.1);
 }
 
 #[test]
@@ -270,7 +316,7 @@ fn a_linear_balls_contact_and_e_come_back_with_its_own_model() {
         let (mut contacts, mut fasts) = (0, 0);
         for _ in 0..DROPS {
             let made = linear_drop(e, contact_s, impacts, &mut rng);
-            let selection = select(&made, &Inputs::default(), Choice::Linear).unwrap();
+            let selection = select(&made, &[], &Inputs::default(), Choice::Linear).unwrap();
             let [low, high] = selection.fit.contact_s.unwrap().interval95.unwrap();
             contacts += usize::from(low <= contact_s && contact_s <= high);
             let ball = selection.ball(9.81).unwrap().oscillator().unwrap();
@@ -305,7 +351,7 @@ fn viscoelastic_spheres_are_told_from_a_power_of_the_speed_and_e_is_that_at_the_
             speed *= law.at(speed).unwrap().value() * (0.006 * rng.normal()).exp();
             at_s += 2.0 * speed / 9.81;
         }
-        let selection = select(&impacts, &Inputs::default(), Choice::Auto).unwrap();
+        let selection = select(&impacts, &[], &Inputs::default(), Choice::Auto).unwrap();
         let truth = law
             .at(0.5 * 9.81 * selection.fit.mean_speed_s)
             .unwrap()
@@ -336,7 +382,7 @@ fn e_of_a_linear_ball_is_that_at_the_mean_speed_and_not_the_mean_over_its_impact
     let (mut off, mut apart, mut stds) = (0.0, 0.0, 0.0);
     for _ in 0..40 {
         let made = linear_drop(e, contact_s, impacts, &mut rng);
-        let selection = select(&made, &Inputs::default(), Choice::Linear).unwrap();
+        let selection = select(&made, &[], &Inputs::default(), Choice::Linear).unwrap();
         let at_mean = ln_at(0.5 * 9.81 * selection.fit.mean_speed_s);
         off += selection.fit.ln_restitution.value - at_mean;
         apart += mean_ln - at_mean;
@@ -377,7 +423,7 @@ fn a_light_ball_is_not_taken_for_a_duller_one_where_mass_and_diameter_are_given(
         let mean = 0.93 - (flight(30) / flight(0)).powf(1.0 / 30.0);
         assert!((first - first_off).abs() < 0.15 * first_off, "{first}");
         assert!((mean - mean_off).abs() < 0.15 * mean_off, "{mean}");
-        let selection = select(&impacts, &inputs, Choice::Drag).unwrap();
+        let selection = select(&impacts, &[], &inputs, Choice::Drag).unwrap();
         let e = selection.fit.ln_restitution.value.exp();
         assert!((e - 0.93).abs() < 1e-4, "from {height_m} m: {e}");
     }

@@ -1,6 +1,7 @@
 //! Restitution from the ratios of successive flights.
 
 use super::Estimate;
+use super::irregular::Regularity;
 use crate::impact::Impact;
 use crate::units::real;
 
@@ -9,6 +10,8 @@ use crate::units::real;
 pub struct Flights {
     /// Number of the impact before each flight, and its length in seconds.
     lengths: Vec<(usize, f64)>,
+    /// Numbers of the bounces that are left out of the ratios, in order.
+    left_out: Vec<usize>,
 }
 
 impl Flights {
@@ -23,7 +26,26 @@ impl Flights {
             })
             .map(|(i, pair)| (i, pair[1].time_s - pair[0].time_s))
             .collect();
-        Self { lengths }
+        Self {
+            lengths,
+            left_out: Vec::new(),
+        }
+    }
+
+    /// The same without the ratios of irregular bounces, and with those of the part alone that has the drop's e.
+    #[must_use]
+    pub fn regular(impacts: &[Impact], regularity: &Regularity) -> Self {
+        let part = &regularity.part;
+        let odd = regularity.odd_in(part);
+        let is_regular = |i: &usize| part.start < *i && i + 1 < part.end && !odd.contains(i);
+        Self {
+            left_out: (1..impacts.len()).filter(|i| !is_regular(i)).collect(),
+            ..Self::between(impacts)
+        }
+    }
+
+    fn is_left_out(&self, bounce: usize) -> bool {
+        self.left_out.binary_search(&bounce).is_ok()
     }
 
     /// Length in seconds of the flight after impact `number`, counted from 0, if both its ends were heard.
@@ -36,12 +58,12 @@ impl Flights {
         Some(self.lengths[place].1)
     }
 
-    /// ln of the ratio of each flight to the one before it, with the number of the impact between them.
+    /// ln of the ratio of each flight to the one before it, with the number of the impact between them; not of those left out.
     #[must_use]
     pub fn ln_ratios(&self) -> Vec<(usize, f64)> {
         self.lengths
             .windows(2)
-            .filter(|pair| pair[1].0 == pair[0].0 + 1)
+            .filter(|pair| pair[1].0 == pair[0].0 + 1 && !self.is_left_out(pair[1].0))
             .map(|pair| (pair[1].0, (pair[1].1 / pair[0].1).ln()))
             .collect()
     }
@@ -50,9 +72,9 @@ impl Flights {
     ///
     /// # Formula
     /// ```text
-    /// ln e = ln(T_b / T_a) / (b − a),   σ = s / √m
+    /// ln e = Σ ln(T_b / T_a) / Σ (b − a),   σ = s / √m
     /// ```
-    /// `T_a` and `T_b` are the first and last flight, s is the standard deviation of the m ratios about their mean. Where
+    /// `T_a` and `T_b` are the first and last flight; where bounces are left out, those of each piece between them. s is the standard deviation of the m ratios about their mean. Where
     /// each rebound scatters by itself this is the right error; where the times' jitter rules, neighbouring ratios
     /// err in opposite directions and it is too wide, never too narrow. A trend (drag) widens it too. One ratio has no
     /// error.
@@ -60,11 +82,18 @@ impl Flights {
     /// None for fewer than two flights.
     #[must_use]
     pub fn ratio(&self) -> Option<Estimate> {
-        let (&(a, first), &(b, last)) = (self.lengths.first()?, self.lengths.last()?);
-        if a == b {
+        let (mut bounces, mut lost) = (0, 0.0);
+        for pair in self.lengths.windows(2) {
+            let ((a, before), (b, after)) = (pair[0], pair[1]);
+            if !(a + 1..=b).any(|bounce| self.is_left_out(bounce)) {
+                bounces += b - a;
+                lost += (after / before).ln();
+            }
+        }
+        if bounces == 0 {
             return None;
         }
-        let ln = (last / first).ln() / real(b - a);
+        let ln = lost / real(bounces);
         let Some(scatter) = self.scatter() else {
             return Some(Estimate::bare(ln.exp()));
         };

@@ -6,6 +6,7 @@
 mod banded;
 pub mod bounces;
 pub mod flights;
+pub mod irregular;
 mod least_squares;
 pub mod model;
 pub mod model_kind;

@@ -136,7 +136,7 @@ const HALVINGS: usize = 19;
 /// away.
 #[cfg(test)]
 pub(super) fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
-    Some(Fitted::new(impacts, terms)?.summary())
+    Some(Fitted::new(impacts, &[], terms)?.summary())
 }
 
 /// A fitted model before its intervals and budget are computed: they are costly, and only the selected model needs them.
@@ -151,11 +151,11 @@ pub(super) struct Fitted<'a> {
 }
 
 impl<'a> Fitted<'a> {
-    pub(super) fn new(impacts: &'a [Impact], terms: &Terms) -> Option<Self> {
+    pub(super) fn new(impacts: &'a [Impact], odd: &[usize], terms: &Terms) -> Option<Self> {
         if impacts.len() < FEWEST {
             return None;
         }
-        let mut state = State::new(impacts, terms);
+        let mut state = State::new(impacts, odd, terms);
         state.converge()?;
         let outliers = outlier::find(&mut state)?;
         let bounces = state.bounces()?;

@@ -198,7 +198,7 @@ mod tests {
             (ModelKind::Viscoelastic, Choice::Viscoelastic, BALL),
         ] {
             let made = kind.ball(&parameters).unwrap();
-            let selection = select(&impacts(&made), &Inputs::default(), choice).unwrap();
+            let selection = select(&impacts(&made), &[], &Inputs::default(), choice).unwrap();
             assert_eq!(selection.selected, kind);
             let fitted = selection.ball(9.81).unwrap();
             for speed in [0.3, 1.0, 2.5] {

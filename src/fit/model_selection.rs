@@ -88,10 +88,16 @@ pub struct Selection {
 /// Fits the model chosen, or selects the one that the recording supports.
 ///
 /// Evidence is the likelihood of the times with all parameters and the sizes of the noises integrated out over what is
-/// known of balls at large, so a parameter that buys nothing costs. The error of e counts in that another model may be
+/// known of balls at large, so a parameter that buys nothing costs. The bounces called odd, by their numbers from 0 with an impact
+/// before and after each, have no say. The error of e counts in that another model may be
 /// the right one. None for fewer than three impacts.
 #[must_use]
-pub fn select(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Selection> {
+pub fn select(
+    impacts: &[Impact],
+    odd: &[usize],
+    inputs: &Inputs,
+    choice: Choice,
+) -> Option<Selection> {
     let (contact, drag) = (inputs.contact_s.is_some(), inputs.drag_per_s2.is_some());
     let wanted = match choice {
         Choice::Auto => None,
@@ -107,7 +113,7 @@ pub fn select(impacts: &[Impact], inputs: &Inputs, choice: Choice) -> Option<Sel
         .into_iter()
         .filter(|&r| wanted.is_none_or(|wanted| r == wanted))
         .filter(|&r| is_fitted(r, inputs))
-        .filter_map(|r| Some((r, Fitted::new(impacts, &terms(r, inputs))?)))
+        .filter_map(|r| Some((r, Fitted::new(impacts, odd, &terms(r, inputs))?)))
         .collect();
     let lowest = fits.first()?.1.ln_evidence();
     let gain = |i: usize| fits[i].1.ln_evidence() - lowest;

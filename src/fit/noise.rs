@@ -7,17 +7,22 @@ use super::bounces::Bounces;
 ///
 /// # Formula
 /// ```text
-/// Σ = σ_e²·diag(w) + φ²·A·diag(s²)·Aᵀ
+/// Σ = σ_e²·diag(w) + φ²·A·diag(s²)·Aᵀ + diag(f)
 /// ```
 /// A holds the derivatives of ln e by the times ([`Bounces::slopes`]), s are the stated standard errors of the times, φ is
-/// near 1 and scales all of them, w is the variance inflation of a bounce: 1 but for an outlier.
+/// near 1 and scales all of them, w is the variance inflation of a bounce: 1 but for an outlier, and f is 0 but for a bounce that is left out.
 #[derive(Debug, Clone)]
 pub(super) struct Noise {
     /// `A·diag(s²)·Aᵀ`.
     timing: Banded,
     /// w.
     pub variance_inflation: Vec<f64>,
+    /// f, the variance of ln e of a bounce that is left out; 0 of others.
+    left_out: Vec<f64>,
 }
+
+/// Variance of ln e of a bounce that is left out: so wide that it says nothing of e, nor of the scatter.
+const LEFT_OUT_VARIANCE: f64 = 1.0;
 
 /// Sizes of the noises.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,28 +52,37 @@ impl Noise {
             timing: Banded {
                 rows: rows.collect(),
             },
+            left_out: vec![0.0; variance_inflation.len()],
             variance_inflation,
         }
     }
 
-    /// Variance of ln e of each bounce by the times alone.
-    pub(super) fn timing_variances(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
-        self.timing.rows.iter().map(|row| row[0])
+    /// The same with no say for these bounces: the ball leaves each at any speed, and the law holds before and after.
+    pub(super) fn leaving_out(mut self, bounces: &[usize]) -> Self {
+        for &bounce in bounces {
+            self.left_out[bounce] = LEFT_OUT_VARIANCE;
+        }
+        self
+    }
+
+    /// Rows of the timing part, w and f of each bounce.
+    fn rows(&self) -> impl ExactSizeIterator<Item = (&[f64; 3], f64, f64)> {
+        let rows = self.timing.rows.iter().zip(&self.variance_inflation);
+        rows.zip(&self.left_out).map(|((row, w), f)| (row, *w, *f))
     }
 
     /// The share of the variance of each bounce that is its own and not that of the times.
     pub(super) fn own_shares(&self, sizes: Sizes) -> impl Iterator<Item = f64> + '_ {
         let (own, scale) = (sizes.bounce.powi(2), sizes.timing.powi(2));
-        let pairs = self.timing_variances().zip(&self.variance_inflation);
-        pairs.map(move |(t, w)| own * w / (own * w + scale * t))
+        let rows = self.rows();
+        rows.map(move |(row, w, f)| own * w / (own * w + scale * row[0] + f))
     }
 
     /// The factors of Σ; none where it is singular in the precision at hand.
     pub(super) fn factors(&self, sizes: Sizes) -> Option<Factors> {
         let (own, scale) = (sizes.bounce.powi(2), sizes.timing.powi(2));
-        let rows = self.timing.rows.iter().zip(&self.variance_inflation);
-        Factors::of(rows.map(|([main, first, second], w)| {
-            [scale * main + own * w, scale * first, scale * second]
+        Factors::of(self.rows().map(|([main, first, second], w, f)| {
+            [scale * main + own * w + f, scale * first, scale * second]
         }))
     }
 
@@ -81,11 +95,11 @@ impl Noise {
         const STEP: f64 = 0.2;
         let scale = sizes.timing.powi(2);
         let own = [-STEP, 0.0, STEP].map(|step: f64| sizes.bounce.powi(2) * step.exp());
-        let rows = self.timing.rows.iter().zip(&self.variance_inflation);
-        let [less, same, more] = ln_determinants(rows.map(|([main, first, second], w)| {
-            let main = own.map(|own| scale * main + own * w);
-            (main, [scale * first, scale * second])
-        }));
+        let [less, same, more] =
+            ln_determinants(self.rows().map(|([main, first, second], w, f)| {
+                let main = own.map(|own| scale * main + own * w + f);
+                (main, [scale * first, scale * second])
+            }));
         let first = (more - less) / (2.0 * STEP);
         let second = (more - 2.0 * same + less) / (STEP * STEP);
         let information = first - second;

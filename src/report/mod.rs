@@ -9,6 +9,7 @@ pub mod csv;
 pub mod drops;
 mod estimates;
 mod impact;
+mod irregular;
 pub mod json;
 pub mod labels;
 mod model;
@@ -25,6 +26,7 @@ pub use ball::{Ball, ContactSource};
 pub use candidate::{Candidate, Lack};
 pub use estimates::{Estimates, Method, Restitution, Scatter};
 pub use impact::{Bounce, Impact};
+pub use irregular::{Irregular, Kind as IrregularKind};
 pub use model::{Given, Model, Parameters};
 pub(crate) use numbers::{decimals, with_error};
 pub use rejected::{RejectReason, Rejected};
@@ -191,6 +193,9 @@ pub struct Drop {
     /// Evidence that this is a drop and no chance, in nats; infinite, null in JSON, where a person set the impacts.
     #[serde(deserialize_with = "infinite_where_null")]
     pub evidence_nats: f64,
+    /// Bounces that do not go by the e of the others, in order of time.
+    #[serde(default)]
+    pub irregular: Vec<Irregular>,
     /// Strong events between the impacts that are none.
     pub rejected: Vec<Rejected>,
     /// Warnings about this drop.
@@ -222,6 +227,7 @@ impl Drop {
             ball: None,
             budget: None,
             evidence_nats: 0.0,
+            irregular: Vec::new(),
             rejected: Vec::new(),
             warnings: Vec::new(),
         }

@@ -45,6 +45,10 @@ words! {
         ImpactsGiven = "impacts_given",
         /// There are only two impacts or three: e rests on the height, or on one ratio.
         FewBounces = "few_bounces",
+        /// Bounces go by another e than the others, and are left out of it.
+        IrregularBounces = "irregular_bounces",
+        /// Bounces lose more and less by turns.
+        BouncesAlternate = "bounces_alternate",
         /// Few flights tell the trend of e from chance badly.
         FewImpacts = "few_impacts",
         /// Impacts were not heard but inferred.

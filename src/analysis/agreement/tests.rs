@@ -3,6 +3,7 @@
 use super::*;
 use crate::analysis::drop::{by_height, estimates};
 use crate::analysis::model::fitted;
+use crate::fit::irregular::Regularity;
 use crate::physics::FlightLaw;
 use crate::random::SplitMix64;
 
@@ -72,7 +73,8 @@ fn codes(timed: &[Impact], settings: &Settings) -> Vec<&'static str> {
     let height_m = settings.height_m.unwrap();
     let height = by_height(timed, &flights, ratio.value, height_m, settings).unwrap();
     let estimates = estimates(Some(ratio), height.total, height.first_rebound);
-    let modelled = fitted(timed, settings).unwrap();
+    let regularity = Regularity::of(timed);
+    let modelled = fitted(timed, &regularity.part, &regularity, settings).unwrap();
     let agreement = Agreement::of(timed, &flights, &estimates, &modelled, settings).unwrap();
     let disagreement = agreement.unwrap().warning();
     let warnings = height.warning.into_iter().chain(disagreement);

@@ -29,6 +29,8 @@ const GREATEST_DRAG: f64 = 100.0;
 pub(super) struct State<'a> {
     pub impacts: &'a [Impact],
     pub terms: Terms,
+    /// Bounces that are left out, the first being number 0.
+    left_out: Vec<usize>,
     trial_s: Vec<f64>,
     /// The shorter flight next to each impact, in seconds.
     shorter: Vec<f64>,
@@ -40,7 +42,8 @@ pub(super) struct State<'a> {
 }
 
 impl<'a> State<'a> {
-    pub(super) fn new(impacts: &'a [Impact], terms: &Terms) -> Self {
+    /// Of impacts among which these bounces, by the number of the impact from 0, have no say.
+    pub(super) fn new(impacts: &'a [Impact], odd: &[usize], terms: &Terms) -> Self {
         let trial_s: Vec<f64> = impacts.iter().map(|i| i.time_s).collect();
         let shorter: Vec<f64> = (0..impacts.len())
             .map(|k| shorter_flight(&trial_s, k))
@@ -59,6 +62,7 @@ impl<'a> State<'a> {
         let mut state = Self {
             impacts,
             terms: *terms,
+            left_out: odd.iter().map(|impact| impact - 1).collect(),
             trial_s,
             shorter,
             values: Values::default(),
@@ -119,6 +123,7 @@ impl<'a> State<'a> {
             &self.time_variances,
             self.variance_inflation.clone(),
         )
+        .leaving_out(&self.left_out)
     }
 
     /// The prior of each fitted parameter, counted from its trial value.

@@ -29,7 +29,7 @@ fn touches(e: f64, contact_s: f64, count: usize, std_s: f64) -> Vec<Impact> {
 fn a_linear_ball_is_told_from_a_contact_by_exact_times() {
     for std_s in [1e-6, 1e-7] {
         let touches = touches(0.93, 80e-6, 65, std_s);
-        let selection = select(&touches, &Inputs::default(), Choice::Auto).unwrap();
+        let selection = select(&touches, &[], &Inputs::default(), Choice::Auto).unwrap();
         let gain = |model: ModelKind| {
             let mut candidates = selection.candidates.iter();
             candidates.find(|c| c.model == model).unwrap().gain_nats
@@ -67,7 +67,7 @@ fn twice_the_rounds_and_a_tenth_of_the_move_change_no_evidence() {
             terms(None, drag, ImpactLaw::Viscoelastic),
         ] {
             let evidence = |rest: f64, rounds: usize| {
-                let mut state = State::new(&touches, &terms);
+                let mut state = State::new(&touches, &[], &terms);
                 state.converge_to(rest, rounds)?;
                 let bounces = state.bounces()?;
                 let noise = state.noise(&bounces);

@@ -5,7 +5,7 @@ mod models;
 mod table;
 
 use super::wrap::wrapped;
-use super::{Impact, Rejected, Report, Warning, rule};
+use super::{Impact, Irregular, Rejected, Report, Warning, rule};
 use answer::{answer, ways};
 pub(crate) use models::model_name;
 use models::models;
@@ -48,6 +48,7 @@ pub fn to_text(report: &Report, detail: Detail) -> String {
         if detail != Detail::Answer {
             ways(&mut out, &drop.estimates);
             table(&mut out, &drop.impacts);
+            irregular(&mut out, &drop.irregular);
             if detail == Detail::Everything {
                 models(&mut out, &drop.model);
             }
@@ -84,6 +85,15 @@ fn table(out: &mut String, impacts: &[Impact]) {
     line(out, "");
     for row in table::rows(impacts) {
         line(out, &row);
+    }
+}
+
+fn irregular(out: &mut String, irregular: &[Irregular]) {
+    if !irregular.is_empty() {
+        line(out, "");
+    }
+    for bounce in irregular {
+        line(out, &wrapped(&bounce.in_words(), 2));
     }
 }
 
