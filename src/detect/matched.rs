@@ -8,10 +8,8 @@ use crate::event::{Event, Profile};
 use crate::linalg::dot;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
-use crate::units::{real, samples_in, whole};
+use crate::units::{real, samples_in};
 
-/// Longest part of the template that is subtracted, in seconds: a ring, an echo from a wall some metres away.
-const LONGEST_S: f64 = 45e-3;
 /// The matched part begins this long before the onset, in seconds, …
 const BEFORE_S: f64 = 0.4e-3;
 /// … holds this share of the energy of the sound …
@@ -21,12 +19,12 @@ const MATCHED_S: (f64, f64) = (1.5e-3, 6e-3);
 /// … or, where the shortest flight known is long, up to this share of it: a thud of 100 Hz needs more than half a period.
 const MATCHED_FLIGHT: f64 = 0.2;
 const MATCHED_LONGEST_S: f64 = 20e-3;
+/// A match of so many standard deviations is a sound: white noise makes one in some minutes.
+const CERTAIN: f64 = 5.0;
 /// Weakest match, in standard deviations of the noise.
 const WEAKEST: f64 = 3.5;
 /// Two matches are at least this far apart, in seconds: nearer ones are the residue of one sound.
 const APART_S: f64 = 0.5e-3;
-/// Matches taken out for each second of the region: far more than a ball has impacts.
-const PER_SECOND: f64 = 300.0;
 /// Least jitter of a match, by neighbours that overlap it: a standard deviation in seconds, and as a share of 1/β of the
 /// matched part.
 const LEAST_JITTER_S: f64 = 0.05e-3;
@@ -51,11 +49,10 @@ pub fn events(
     let start = recorded.sample_at(region_s.0);
     let end = recorded.sample_at(region_s.1).min(sound.range().end);
     let sound = sound.between(start, end)?;
-    let most = whole(PER_SECOND * (region_s.1 - region_s.0));
     let apart = samples_in(APART_S, rate).max(1);
     let onset = real(start + before) + template.onset(rate);
     let mut found: Vec<Event> = Residue::new(&sound, &pattern)?
-        .take_out(WEAKEST, most, apart)
+        .take_out(CERTAIN, WEAKEST, apart)
         .into_iter()
         .map(|(position, z)| Event {
             time_s: recorded.time_s(onset + position),
@@ -83,8 +80,7 @@ fn bandwidth_per_s(sound: &[f64], rate: f64) -> f64 {
 /// The part of a template that is sought, and how many of its samples come before the nominal onset.
 fn pattern(template: &Template, rate: f64, shortest_s: f64) -> (Pattern, usize) {
     let before = samples_in(BEFORE_S, rate).min(template.before);
-    let mut shape = template.mean()[template.before - before..].to_vec();
-    shape.truncate(before + samples_in(LONGEST_S, rate));
+    let shape = template.denoised().split_off(template.before - before);
     let most_s = (MATCHED_FLIGHT * shortest_s).clamp(MATCHED_S.1, MATCHED_LONGEST_S);
     let matched = matched_length(&shape, before, rate, most_s);
     (Pattern { shape, matched }, before)

@@ -81,19 +81,22 @@ impl Residue {
         Some((start + offset, height))
     }
 
-    /// Takes out match after match, the best first; gives their positions and sizes in standard deviations.
-    pub(super) fn take_out(mut self, weakest: f64, most: usize, apart: usize) -> Vec<(f64, f64)> {
+    /// Takes match after match, the best first; gives their positions and sizes in standard deviations.
+    ///
+    /// Down to the size `certain` each is taken out of the rest; a weaker one may be noise, and its pattern would only be added.
+    pub(super) fn take_out(mut self, certain: f64, weakest: f64, apart: usize) -> Vec<(f64, f64)> {
         let mut found = Vec::new();
-        for _ in 0..most {
-            let Some((best, z)) = self.top().filter(|(_, z)| f64::from(*z) >= weakest) else {
-                break;
-            };
+        while let Some((best, z)) = self.top().filter(|(_, z)| f64::from(*z) >= weakest) {
             let beside = self.vertex(best);
             found.push((real(best) + beside, f64::from(z)));
-            let end = (best + apart + 1).min(self.free.len());
-            self.free[best.saturating_sub(apart)..end].fill(f32::NEG_INFINITY);
-            let (from, to) = self.own.subtract(&mut self.products, best, beside, z);
+            let (from, to) = (best.saturating_sub(apart), best + apart + 1);
+            let (from, to) = (from, to.min(self.free.len()));
+            self.free[from..to].fill(f32::NEG_INFINITY);
             self.look_again(from, to);
+            if f64::from(z) >= certain {
+                let (from, to) = self.own.subtract(&mut self.products, best, beside, z);
+                self.look_again(from, to);
+            }
         }
         found
     }

@@ -39,8 +39,10 @@ pub struct NonImpact {
 const DELAY_TOLERANCE_S: f64 = 0.6e-3;
 /// Longest delay that is looked for: 17 m to a wall.
 const LONGEST_DELAY_S: f64 = 0.1;
-/// An echo follows at least this share of the impacts.
+/// An echo follows at least this share of the impacts …
 const ECHO_SHARE: f64 = 0.3;
+/// … and more of them than events without order would by so many standard deviations.
+const ECHO_ABOVE_CHANCE: f64 = 4.0;
 /// Nearer to an impact than this, an event belongs to its sound.
 const NEAR_S: f64 = 5e-3;
 /// How many events outside the drops of a recording are named, the strongest; the rest is counted.
@@ -185,7 +187,10 @@ fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: impl Fn(usize) -> bool) -
         );
     }
     delays.sort_by(f64::total_cmp);
-    let needed = ECHO_SHARE * real(drop.impacts.len());
+    let by_chance =
+        real(delays.len()) * DELAY_TOLERANCE_S / (LONGEST_DELAY_S - DELAY_TOLERANCE_S);
+    let needed = (ECHO_SHARE * real(drop.impacts.len()))
+        .max(by_chance + ECHO_ABOVE_CHANCE * by_chance.sqrt());
     let mut echoes = Vec::new();
     let mut first = 0;
     while first < delays.len() {

@@ -18,7 +18,7 @@ const UNHEARD: f64 = 0.3;
 /// Longest C, in shortest intervals.
 const LONGEST_CONTACT: f64 = 0.9;
 /// Longest C of a linear ball, in shortest intervals: with more, gravity in contact hardly lets it leave.
-const LONGEST_LINEAR_CONTACT: f64 = 0.45;
+const LONGEST_LINEAR_CONTACT: f64 = 0.55;
 /// Greatest ln e of fast impacts: at 0 a linear ball has no damping.
 const GREATEST_LN_FAST: f64 = -1e-4;
 /// Greatest K in s⁻²: that of a balloon.

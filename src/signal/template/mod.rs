@@ -70,6 +70,20 @@ impl Template {
         &self.components[0]
     }
 
+    /// The mean sound without what is noise in it.
+    ///
+    /// # Formula
+    /// Wiener's filter: each sample times `1 − n/s²`, or 0, for the power s² of the samples around it and the variance n of
+    /// the mean there.
+    pub(crate) fn denoised(&self) -> Vec<f64> {
+        let squares: Vec<f64> = self.mean().iter().map(|s| s * s).collect();
+        let power = smoothed(&squares, self.before);
+        let noise = smoothed(&self.noise, self.before);
+        let held = power.into_iter().zip(noise);
+        let held = held.map(|(power, noise)| (1.0 - noise / power.max(noise)).max(0.0));
+        self.mean().iter().zip(held).map(|(s, h)| s * h).collect()
+    }
+
     /// Onset of its sound, in samples after the nominal one: the constant fraction of its rise.
     pub(crate) fn onset(&self, rate: f64) -> f64 {
         let rise = constant_fraction::time(self.mean(), self.before, rate);
