@@ -122,7 +122,7 @@ fn model(selection: &Selection, inputs: &Inputs) -> Model {
         parameters: Parameters {
             contact_time_s: fit.contact_s.map(estimate),
             drag_per_s2: fit.drag_per_s2.map(estimate),
-            restitution: Some(fit.ln_restitution.value.exp()),
+            restitution: Some(fit.own_ln_restitution.exp()),
             speed_exponent: fit.exponent.map(estimate),
         },
         candidates: selection.candidates.clone(),
@@ -155,7 +155,7 @@ fn ball(
         Some(oscillator) => (oscillator.restitution().ok()?, oscillator),
         None => {
             let restitution =
-                physics::Restitution::from_ln(selection.fit.ln_restitution.value).ok()?;
+                physics::Restitution::from_ln(selection.fit.own_ln_restitution).ok()?;
             let oscillator = Oscillator::from_contact(restitution, contact.value).ok()?;
             (restitution, oscillator)
         }

@@ -72,33 +72,63 @@ impl Residue {
         }
     }
 
-    /// The best free match: its index and size.
-    fn top(&self) -> Option<(usize, f32)> {
-        let height = highest(self.best.iter().copied());
-        let start = BLOCK * self.best.iter().position(|&b| b >= height)?;
-        let block = self.products[start..].iter().zip(&self.free[start..]);
-        let offset = block.take(BLOCK).position(|(p, f)| p + f >= height)?;
-        Some((start + offset, height))
+    /// The first free match that is at least so great.
+    fn first(&self, least: f32) -> Option<usize> {
+        let start = BLOCK * self.best.iter().position(|&b| b >= least)?;
+        (start..self.products.len()).find(|&i| self.match_at(i) >= least)
     }
 
-    /// Takes match after match, the best first; gives their positions and sizes in standard deviations.
+    fn match_at(&self, index: usize) -> f32 {
+        self.products[index] + self.free[index]
+    }
+
+    /// The free match, uphill from an index, that none within reach exceeds.
+    fn summit(&self, mut index: usize, reach: usize) -> usize {
+        loop {
+            let mut near =
+                index.saturating_sub(reach)..(index + reach + 1).min(self.products.len());
+            let height = highest(near.clone().map(|i| self.match_at(i)));
+            if self.match_at(index) >= height {
+                return index;
+            }
+            index = near.find(|&i| self.match_at(i) >= height).unwrap_or(index);
+        }
+    }
+
+    /// Takes match after match, and each of the size `certain` out of the rest; gives their positions and sizes in standard
+    /// deviations.
     ///
-    /// Down to the size `certain` each is taken out of the rest; a weaker one may be noise, and its pattern would only be added.
+    /// What is certain goes first and in order of time, so that the ring of one sound is out of the way of the next; where
+    /// side lobes overlap the highest of them is the sound. A weaker match may be noise, and its pattern would only be added.
     pub(super) fn take_out(mut self, certain: f64, weakest: f64, apart: usize) -> Vec<(f64, f64)> {
         let mut found = Vec::new();
-        while let Some((best, z)) = self.top().filter(|(_, z)| f64::from(*z) >= weakest) {
-            let beside = self.vertex(best);
-            found.push((real(best) + beside, f64::from(z)));
-            let (from, to) = (best.saturating_sub(apart), best + apart + 1);
-            let (from, to) = (from, to.min(self.free.len()));
-            self.free[from..to].fill(f32::NEG_INFINITY);
+        // Side lobes reach as far as the matched part.
+        let reach = self.own.centre;
+        while let Some(first) = self.first(narrow(certain)) {
+            let best = self.summit(first, reach);
+            let (position, z) = self.take(best, apart);
+            found.push((position, f64::from(z)));
+            let (from, to) = self
+                .own
+                .subtract(&mut self.products, best, position - real(best), z);
             self.look_again(from, to);
-            if f64::from(z) >= certain {
-                let (from, to) = self.own.subtract(&mut self.products, best, beside, z);
-                self.look_again(from, to);
-            }
+        }
+        while let Some(best) = self.first(narrow(weakest)) {
+            let best = self.summit(best, apart);
+            let (position, z) = self.take(best, apart);
+            found.push((position, f64::from(z)));
         }
         found
+    }
+
+    /// The position of a match and its size; none is free beside it any more.
+    fn take(&mut self, best: usize, apart: usize) -> (f64, f32) {
+        let (beside, z) = (self.vertex(best), self.match_at(best));
+        let (from, to) = (best.saturating_sub(apart), best + apart + 1);
+        let to = to.min(self.free.len());
+        self.free[from..to].fill(f32::NEG_INFINITY);
+        self.look_again(from, to);
+        (real(best) + beside, z)
     }
 
     /// Vertex of the parabola through three products, from the middle one.

@@ -18,9 +18,11 @@ const FEWEST: usize = 3;
 /// A model fitted to a drop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// ln e at the mean speed: mean, standard deviation, and the ends of the interval that holds it with 95 %; none
-    /// for one ratio alone.
+    /// ln e at the mean speed, by all models that may be right: mean, standard deviation, and the ends of the interval that
+    /// holds it with 95 %; none for one ratio alone.
     pub ln_restitution: Parameter,
+    /// ln e at the mean speed by this model alone.
+    pub own_ln_restitution: f64,
     /// C in seconds, if the model has it; of fast impacts for a linear ball.
     pub contact_s: Option<Parameter>,
     /// K in s⁻², if the model has it.
@@ -69,12 +71,12 @@ pub struct Budget {
 }
 
 impl Fit {
-    /// The fit where one of several models may be the right one, this one among them: the interval is that of their
-    /// mixture, the variance is taken about this one's value.
+    /// The fit where one of several models may be the right one, this one among them: ln e is that of their mixture.
     ///
     /// # Formula
     /// ```text
-    /// σ² = Σ w_k·[(ln e_k − ln e)² + σ_k²],   interval: where Σ w_k·Φ(1.96·(x − ln e_k)/r_k) is 0.025 and 0.975
+    /// ln e = Σ w_k·ln e_k,   σ² = Σ w_k·[(ln e_k − ln e)² + σ_k²],
+    /// interval: where Σ w_k·Φ(1.96·(x − ln e_k)/r_k) is 0.025 and 0.975
     /// ```
     /// w are the odds of the models, together 1; `r_k` is the reach of a model's own interval on the side of x.
     #[must_use]
@@ -89,6 +91,7 @@ impl Fit {
             let mean_of = |of: &dyn Fn(&Rival) -> f64| {
                 models.iter().map(|m| m.weight * of(m)).sum::<f64>() / total
             };
+            *value = mean_of(&|m| m.ln_restitution);
             let variance = mean_of(&|m| (m.ln_restitution - *value).powi(2) + m.std * m.std);
             let normal = Normal::standard();
             let below = |x: f64| {
@@ -201,11 +204,13 @@ impl<'a> Fitted<'a> {
                 self.parameter(index, offset)
             })
         };
+        let ln_restitution = self.parameter(0, 0.0);
         Fit {
+            own_ln_restitution: ln_restitution.value,
+            ln_restitution,
             contact_s: next(terms.contact, values.contact_s),
             drag_per_s2: next(terms.drag, values.drag_per_s2),
             exponent: next(terms.speed, 0.0),
-            ln_restitution: self.parameter(0, 0.0),
             bounce_std: self.posterior.mean_of(|n, _| n.bounce),
             timing_scale: self.posterior.mean_of(|n, _| n.timing),
             mean_speed_s: self.bounces.mean_ln_speed.exp(),

@@ -170,7 +170,7 @@ impl Selection {
     pub fn ball(&self, gravity_m_per_s2: f64) -> Result<BallModel, Error> {
         let value = |p: Option<Parameter>| p.map_or(0.0, |p| p.value);
         self.selected.ball(&BallParameters {
-            restitution: self.fit.ln_restitution.value.exp(),
+            restitution: self.fit.own_ln_restitution.exp(),
             at_speed_m_per_s: 0.5 * gravity_m_per_s2 * self.fit.mean_speed_s,
             contact_time_s: value(self.fit.contact_s),
             drag_per_s2: value(self.fit.drag_per_s2),

@@ -13,6 +13,9 @@ const HOPELESS: f64 = 12.0;
 const BEAM: usize = 5;
 /// Nats a step must earn: under chance the best match in a window earns about one, so a chain of chance events loses.
 const STEP_COST: f64 = 1.0;
+/// Nats by which a chain that goes on must be better than one that ends here; so the last of its impacts earn twice what a
+/// step in its midst must.
+const END_COST: f64 = 1.0;
 /// Nats lost for an expected impact that nobody hears, where impacts are faint …
 const SILENCE_COST: f64 = 2.0;
 /// … which is below ln of this; among louder ones a silence is less likely by the square of how loud they are.
@@ -107,7 +110,7 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
                 .iter()
                 .filter(|h| h.doubt.unheard == 0 && h.calm >= CALM)
                 .max_by(|a, b| a.score.total_cmp(&b.score));
-            if let Some(&best_heard) = heard.filter(|h| h.score > best.score) {
+            if let Some(&best_heard) = heard.filter(|h| h.score > best.score + END_COST) {
                 best = best_heard;
             }
         }

@@ -187,8 +187,7 @@ fn echo_delays(scene: &Scene<'_>, drop: &Chain, taken: impl Fn(usize) -> bool) -
         );
     }
     delays.sort_by(f64::total_cmp);
-    let by_chance =
-        real(delays.len()) * DELAY_TOLERANCE_S / (LONGEST_DELAY_S - DELAY_TOLERANCE_S);
+    let by_chance = real(delays.len()) * DELAY_TOLERANCE_S / (LONGEST_DELAY_S - DELAY_TOLERANCE_S);
     let needed = (ECHO_SHARE * real(drop.impacts.len()))
         .max(by_chance + ECHO_ABOVE_CHANCE * by_chance.sqrt());
     let mut echoes = Vec::new();

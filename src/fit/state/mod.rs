@@ -17,7 +17,8 @@ const MOST_ROUNDS: usize = 60;
 const UNHEARD: f64 = 0.3;
 /// Longest C, in shortest intervals.
 const LONGEST_CONTACT: f64 = 0.9;
-/// Longest C of a linear ball, in shortest intervals: with more, gravity in contact hardly lets it leave.
+/// Longest C of a linear ball, in shortest intervals: without damping gravity in contact makes each longer than two C, and
+/// damping shortens the last of them a little.
 const LONGEST_LINEAR_CONTACT: f64 = 0.55;
 /// Greatest ln e of fast impacts: at 0 a linear ball has no damping.
 const GREATEST_LN_FAST: f64 = -1e-4;
