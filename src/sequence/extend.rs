@@ -191,7 +191,7 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         // A slower impact is fainter by its speed.
         let slower = match self.way {
             Way::Forward => ratio.ln(),
-            Way::Backward => 0.0,
+            Way::Backward => -ratio.ln(),
         };
         let expected_loudness = from.loudness + slower;
         let louder = heard.loudness - expected_loudness;
