@@ -3,7 +3,7 @@
 //! The best match of the drop's template, ring and echo included, is found in the whitened recording and subtracted whole,
 //! then the next best match in the residue, until none stands out of the noise.
 
-use super::pursuit::{Pattern, Residue};
+use super::pursuit::Residue;
 use crate::event::{Event, Profile};
 use crate::linalg::dot;
 use crate::signal::template::Template;
@@ -43,16 +43,19 @@ pub fn events(
     region_s: (f64, f64),
 ) -> Option<Vec<Event>> {
     let rate = sound.sample_rate_hz();
-    let (pattern, before) = pattern(template, rate, shortest_s);
-    let inverse_bandwidth_s = 1.0 / bandwidth_per_s(&pattern.shape[..pattern.matched], rate);
+    let before = samples_in(BEFORE_S, rate).min(template.before);
+    let pattern = template.denoised().split_off(template.before - before);
+    let head = head_length(&pattern, before, rate, shortest_s);
+    let alone = (before + samples_in(shortest_s, rate)).clamp(head, pattern.len());
+    let inverse_bandwidth_s = 1.0 / bandwidth_per_s(&pattern[..head], rate);
     let recorded = *sound.sound();
     let start = recorded.sample_at(region_s.0);
     let end = recorded.sample_at(region_s.1).min(sound.range().end);
     let sound = sound.between(start, end)?;
     let apart = samples_in(APART_S, rate).max(1);
     let onset = real(start + before) + template.onset(rate);
-    let mut found: Vec<Event> = Residue::new(&sound, &pattern)?
-        .take_out(CERTAIN, WEAKEST, apart)
+    let mut found: Vec<Event> = Residue::new(&sound, &pattern, head, alone)?
+        .matches(CERTAIN, WEAKEST, apart)
         .into_iter()
         .map(|(position, z)| Event {
             time_s: recorded.time_s(onset + position),
@@ -77,16 +80,9 @@ fn bandwidth_per_s(sound: &[f64], rate: f64) -> f64 {
     rate * (change.max(f64::MIN_POSITIVE) / energy).sqrt()
 }
 
-/// The part of a template that is sought, and how many of its samples come before the nominal onset.
-fn pattern(template: &Template, rate: f64, shortest_s: f64) -> (Pattern, usize) {
-    let before = samples_in(BEFORE_S, rate).min(template.before);
-    let shape = template.denoised().split_off(template.before - before);
+/// Samples of a pattern that are matched, of which so many come before the onset.
+fn head_length(shape: &[f64], before: usize, rate: f64, shortest_s: f64) -> usize {
     let most_s = (MATCHED_FLIGHT * shortest_s).clamp(MATCHED_S.1, MATCHED_LONGEST_S);
-    let matched = matched_length(&shape, before, rate, most_s);
-    (Pattern { shape, matched }, before)
-}
-
-fn matched_length(shape: &[f64], before: usize, rate: f64, most_s: f64) -> usize {
     let energy = dot(shape, shape);
     let mut sum = 0.0;
     let enough = shape

@@ -8,6 +8,7 @@
 pub mod activity_gate;
 pub mod change_point;
 pub mod matched;
+mod matches;
 pub mod peaks;
 mod pursuit;
 mod quantization;

@@ -1,62 +1,40 @@
-//! Matching pursuit: the best match of a pattern, taken out whole, and the next best in what is left.
+//! Matching pursuit: match after match of a pattern, each taken out whole.
 
-use crate::linalg::dot;
-use crate::signal::correlate::correlate;
-use crate::signal::interpolate::{shifted, vertex};
-use crate::units::{narrow, real, whole};
+use super::matches::Matches;
+use crate::signal::interpolate::vertex;
+use crate::units::{narrow, real};
 
-/// A sound that is sought, of which only the first samples are matched.
-#[derive(Debug, Clone)]
-pub(super) struct Pattern {
-    /// All of it, which is taken out.
-    pub shape: Vec<f64>,
-    /// Samples that are matched.
-    pub matched: usize,
-}
-
-impl Pattern {
-    /// The match of the whole pattern with its matched part, from the lag `1 − matched` on.
-    fn own_match(&self) -> Option<Vec<f64>> {
-        let mut padded = vec![0.0; self.matched - 1];
-        padded.extend(&self.shape);
-        padded.resize(padded.len() + self.matched, 0.0);
-        let mut own = correlate(&padded, &self.shape[..self.matched])?;
-        own.truncate(self.shape.len() + self.matched - 1);
-        Some(own)
-    }
-}
-
-/// The match of a stretch of sound with the pattern at every sample, less the sounds found so far.
+/// The matches of a stretch of sound with the head of a pattern and with all of it, less the sounds found so far.
 ///
-/// Sounds are taken out of the match and not of the sound: taking `a·s` out at p changes the match at k by
-/// `a·R(k − p)`, where R is the match of the pattern with itself. All in standard deviations of the noise: an `f32` holds
-/// the loudest impact to a hundredth of one.
+/// The head tells impacts apart whose rings overlap. The whole, up to where another impact may sound, says how much of it is there:
+/// what has its head alone is none, and to take its ring out would add one, which would be found in turn without end.
 pub(super) struct Residue {
-    products: Vec<f32>,
-    /// 0 where a match may be taken out, −∞ where one was.
+    head: Matches,
+    whole: Matches,
+    /// 0 where a match may be taken, −∞ where one was.
     free: Vec<f32>,
     /// The best free match of each block.
     best: Vec<f32>,
-    own: OwnMatch,
+    /// Samples of the head.
+    reach: usize,
 }
 
+/// The size by the head may be so many times that by the whole. Derived: taking a·s out changes the energy by a·(a − 2·b)·‖s‖², b
+/// being the size by the whole, so up to 2 it falls; impacts that follow disturb b by as much again.
+const MOST_BY_HEAD: f64 = 3.0;
 /// Length of the blocks whose best match is remembered.
 const BLOCK: usize = 128;
 
 impl Residue {
-    pub(super) fn new(sound: &[f64], pattern: &Pattern) -> Option<Self> {
-        let count = sound.len().checked_sub(pattern.matched)?;
-        let shape = &pattern.shape[..pattern.matched];
-        let scale = 1.0 / dot(shape, shape).sqrt();
-        let products = correlate(sound, shape)?;
+    /// Of a pattern whose head is so many samples long, and that sounds alone for so many.
+    pub(super) fn new(sound: &[f64], pattern: &[f64], head: usize, alone: usize) -> Option<Self> {
+        let count = sound.len().checked_sub(head)?;
         let mut residue = Self {
-            products: products[..count]
-                .iter()
-                .map(|p| narrow(scale * p))
-                .collect(),
+            head: Matches::of(sound, pattern, head, count)?,
+            whole: Matches::of(sound, pattern, alone, count)?,
             free: vec![0.0; count],
             best: vec![0.0; count.div_ceil(BLOCK)],
-            own: OwnMatch::of(pattern)?,
+            reach: head,
         };
         residue.look_again(0, count);
         Some(residue)
@@ -65,7 +43,7 @@ impl Residue {
     /// Finds the best match anew in the blocks that hold these samples.
     fn look_again(&mut self, from: usize, to: usize) {
         let blocks = from / BLOCK..to.div_ceil(BLOCK);
-        let products = self.products.chunks(BLOCK).zip(self.free.chunks(BLOCK));
+        let products = self.head.values.chunks(BLOCK).zip(self.free.chunks(BLOCK));
         let best = self.best.iter_mut().zip(products);
         for (best, (products, free)) in best.skip(blocks.start).take(blocks.len()) {
             *best = highest(products.iter().zip(free).map(|(p, f)| p + f));
@@ -75,18 +53,18 @@ impl Residue {
     /// The first free match that is at least so great.
     fn first(&self, least: f32) -> Option<usize> {
         let start = BLOCK * self.best.iter().position(|&b| b >= least)?;
-        (start..self.products.len()).find(|&i| self.match_at(i) >= least)
+        (start..self.head.values.len()).find(|&i| self.match_at(i) >= least)
     }
 
     fn match_at(&self, index: usize) -> f32 {
-        self.products[index] + self.free[index]
+        self.head.values[index] + self.free[index]
     }
 
     /// The free match, uphill from an index, that none within reach exceeds.
     fn summit(&self, mut index: usize, reach: usize) -> usize {
         loop {
             let mut near =
-                index.saturating_sub(reach)..(index + reach + 1).min(self.products.len());
+                index.saturating_sub(reach)..(index + reach + 1).min(self.head.values.len());
             let height = highest(near.clone().map(|i| self.match_at(i)));
             if self.match_at(index) >= height {
                 return index;
@@ -99,19 +77,15 @@ impl Residue {
     /// deviations.
     ///
     /// What is certain goes first and in order of time, so that the ring of one sound is out of the way of the next; where
-    /// side lobes overlap the highest of them is the sound. A weaker match may be noise, and its pattern would only be added.
-    pub(super) fn take_out(mut self, certain: f64, weakest: f64, apart: usize) -> Vec<(f64, f64)> {
+    /// side lobes overlap, which reach as far as the head, the highest of them is the sound. A weaker match may be noise, and its
+    /// pattern would only be added.
+    pub(super) fn matches(mut self, certain: f64, weakest: f64, apart: usize) -> Vec<(f64, f64)> {
         let mut found = Vec::new();
-        // Side lobes reach as far as the matched part.
-        let reach = self.own.centre;
         while let Some(first) = self.first(narrow(certain)) {
-            let best = self.summit(first, reach);
+            let best = self.summit(first, self.reach);
             let (position, z) = self.take(best, apart);
             found.push((position, f64::from(z)));
-            let (from, to) = self
-                .own
-                .subtract(&mut self.products, best, position - real(best), z);
-            self.look_again(from, to);
+            self.take_out(best, position - real(best));
         }
         while let Some(best) = self.first(narrow(weakest)) {
             let best = self.summit(best, apart);
@@ -119,6 +93,21 @@ impl Residue {
             found.push((position, f64::from(z)));
         }
         found
+    }
+
+    /// Takes a pattern out by the size of its head, or by that of the whole where the ring to the head is missing.
+    fn take_out(&mut self, at: usize, later: f64) {
+        let (by_head, by_whole) = (self.head.amplitude(at), self.whole.amplitude(at));
+        let amplitude = if by_head < MOST_BY_HEAD * by_whole {
+            by_head
+        } else {
+            by_whole
+        };
+        if amplitude > 0.0 {
+            self.whole.take_out(at, later, amplitude);
+            let (from, to) = self.head.take_out(at, later, amplitude);
+            self.look_again(from, to);
+        }
     }
 
     /// The position of a match and its size; none is free beside it any more.
@@ -133,7 +122,7 @@ impl Residue {
 
     /// Vertex of the parabola through three products, from the middle one.
     fn vertex(&self, k: usize) -> f64 {
-        let at = |k: usize| self.products.get(k).copied().map(f64::from);
+        let at = |k: usize| self.head.values.get(k).copied().map(f64::from);
         let (Some(left), Some(middle), Some(right)) =
             (k.checked_sub(1).and_then(at), at(k), at(k + 1))
         else {
@@ -146,53 +135,4 @@ impl Residue {
 /// The highest of some values, in lanes for the machine's vectors; −∞ of none.
 fn highest(values: impl ExactSizeIterator<Item = f32>) -> f32 {
     values.fold(f32::NEG_INFINITY, |a, b| if b > a { b } else { a })
-}
-
-/// The match of the pattern with itself, R over R(0), between samples too.
-struct OwnMatch {
-    /// R from a little more than ½ a sample earlier to as much later, in [`STEPS`] to a sample; all from one lag on.
-    phases: Vec<Vec<f32>>,
-    /// The index of lag 0.
-    centre: usize,
-}
-
-/// Steps between two samples at which R is known. Between them a parabola is laid through three, which is wrong by at
-/// most (π/16)³/16 = 0.05 % where R changes as fast as it can: the vertex of the match is farther off.
-const STEPS: usize = 16;
-
-impl OwnMatch {
-    fn of(pattern: &Pattern) -> Option<Self> {
-        let own = pattern.own_match()?;
-        let scale = 1.0 / own.get(pattern.matched - 1)?;
-        let phase = |step: usize| {
-            let later = (real(step) - 1.0) / real(STEPS) - 0.5;
-            let moved = shifted(&own, -1.0 - later, own.len() + 2);
-            moved.into_iter().map(|r| narrow(scale * r)).collect()
-        };
-        Some(Self {
-            phases: (0..STEPS + 3).map(phase).collect(),
-            // The first value of `own` belongs to a lag of 1 − matched, and one stands before it.
-            centre: pattern.matched,
-        })
-    }
-
-    /// Takes `z·R` out at an index and `later` in (−½, ½) of a sample; gives the range that changed.
-    fn subtract(&self, products: &mut [f32], at: usize, later: f64, z: f32) -> (usize, usize) {
-        let place = (later + 0.5) * real(STEPS);
-        let nearest = whole(place).min(STEPS);
-        let off = narrow(place - real(nearest));
-        let weights = [
-            0.5 * z * off * (off - 1.0),
-            z * (1.0 - off * off),
-            0.5 * z * off * (off + 1.0),
-        ];
-        let skip = self.centre.saturating_sub(at);
-        let from = at.saturating_sub(self.centre);
-        let [a, b, c] = [0, 1, 2].map(|beside| &self.phases[nearest + beside][skip..]);
-        let end = (from + a.len()).min(products.len());
-        for (((product, a), b), c) in products[from..end].iter_mut().zip(a).zip(b).zip(c) {
-            *product -= weights[0] * a + weights[1] * b + weights[2] * c;
-        }
-        (from, end)
-    }
 }
