@@ -60,6 +60,25 @@ impl Track {
         }
     }
 
+    /// Whether an event is an impact of both.
+    pub(super) fn shares(&self, other: &Self) -> bool {
+        let is_own = |event: &usize| self.events.binary_search(event).is_ok();
+        other.events.iter().any(is_own)
+    }
+
+    /// Its part of most evidence between impacts of another chain.
+    pub(super) fn beside(&self, other: &Self) -> Self {
+        let is_other = |step: &Step| {
+            let event = step.event;
+            event.is_some_and(|event| other.events.binary_search(&event).is_ok())
+        };
+        let parts = self.steps.split(is_other);
+        let parts = parts.map(|part| Self::new(part.to_vec()));
+        parts
+            .max_by(|a, b| a.chain.evidence().total_cmp(&b.chain.evidence()))
+            .unwrap_or_else(|| Self::new(Vec::new()))
+    }
+
     /// The impacts heard, each with its event.
     pub(super) fn heard(&self) -> impl Iterator<Item = (usize, &Impact)> {
         let heard = self.chain.impacts.iter().filter(|i| i.is_heard());

@@ -81,7 +81,7 @@ fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> (Vec<Track>, O
     let scene = Scene::new(&some, &clutter);
     let mut tracks = tracks(&scene);
     tracks.retain(|track| is_shaped(&track.chain));
-    let apart = apart(tracks, known, some.len());
+    let apart = apart(tracks, known);
     let is_enough = |track: &Track| track.chain.evidence() >= LEAST_EVIDENCE;
     let (mut found, rest): (Vec<Track>, Vec<Track>) = apart.into_iter().partition(is_enough);
     if found.is_empty() {
@@ -98,21 +98,34 @@ fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> (Vec<Track>, O
 }
 
 /// The chains of most evidence that share no event and are no echo of one another or of those known, the best first.
-fn apart(mut tracks: Vec<Track>, known: &[Track], events: usize) -> Vec<Track> {
-    tracks.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
-    let mut taken = vec![false; events];
-    let mut found: Vec<Track> = Vec::new();
+///
+/// Chains that share events are explained together: one with less evidence goes before others that run through it, if it and
+/// what is left of them beside it have more than they alone. What is left of them stands in the way of others, and is followed
+/// anew among the events that are left.
+fn apart(mut tracks: Vec<Track>, known: &[Track]) -> Vec<Track> {
+    let by_evidence = |a: &Track, b: &Track| b.chain.evidence().total_cmp(&a.chain.evidence());
+    tracks.sort_by(by_evidence);
+    let (mut found, mut left): (Vec<Track>, Vec<Track>) = (Vec::new(), Vec::new());
     for track in tracks {
         let mut before = known.iter().chain(&found);
-        let is_known = track.events.iter().any(|&i| taken[i]);
-        if is_known || before.any(|d| reasons::is_echo_of(&track.chain, &d.chain)) {
+        if before.any(|d| reasons::is_echo_of(&track.chain, &d.chain)) {
             continue;
         }
-        for &event in &track.events {
-            taken[event] = true;
+        let sharing = found.iter().chain(&left).filter(|t| t.shares(&track));
+        let sharing: Vec<(f64, Track)> = sharing
+            .map(|other| (other.chain.evidence(), other.beside(&track)))
+            .collect();
+        let cost = sharing
+            .iter()
+            .map(|(whole, rest)| whole - rest.chain.evidence());
+        if track.chain.evidence() > cost.sum() {
+            found.retain(|other| !other.shares(&track));
+            left.retain(|other| !other.shares(&track));
+            left.extend(sharing.into_iter().map(|(_, rest)| rest));
+            found.push(track);
         }
-        found.push(track);
     }
+    found.sort_by(by_evidence);
     found
 }
 
