@@ -10,23 +10,38 @@ use crate::units::real;
 pub struct Flights {
     /// Number of the impact before each flight, and its length in seconds.
     lengths: Vec<(usize, f64)>,
+    /// How many of them there are up to the last that is known well enough for a ratio.
+    clear: usize,
     /// Numbers of the bounces that are left out of the ratios, in order.
     left_out: Vec<usize>,
 }
+
+/// A flight at the end whose length errs by more than this share says nothing of e: the flights before foretell it as well.
+const VAGUE: f64 = 0.03;
+/// Fewest clear flights: where there are fewer all have to do.
+const FEWEST_CLEAR: usize = 4;
 
 impl Flights {
     /// The flights between neighbouring impacts that were both heard, which are in order of time.
     #[must_use]
     pub fn between(impacts: &[Impact]) -> Self {
-        let lengths = impacts
-            .windows(2)
-            .enumerate()
-            .filter(|(_, pair)| {
-                pair[0].is_heard() && pair[1].is_heard() && pair[1].time_s > pair[0].time_s
-            })
-            .map(|(i, pair)| (i, pair[1].time_s - pair[0].time_s))
-            .collect();
+        let (mut lengths, mut clear) = (Vec::new(), 0);
+        for (i, pair) in impacts.windows(2).enumerate() {
+            let length_s = pair[1].time_s - pair[0].time_s;
+            if !(pair[0].is_heard() && pair[1].is_heard() && length_s > 0.0) {
+                continue;
+            }
+            lengths.push((i, length_s));
+            if pair[0].std_s.hypot(pair[1].std_s) < VAGUE * length_s {
+                clear = lengths.len();
+            }
+        }
         Self {
+            clear: if clear < FEWEST_CLEAR {
+                lengths.len()
+            } else {
+                clear
+            },
             lengths,
             left_out: Vec::new(),
         }
@@ -61,20 +76,21 @@ impl Flights {
     /// ln of the ratio of each flight to the one before it, with the number of the impact between them; not of those left out.
     #[must_use]
     pub fn ln_ratios(&self) -> Vec<(usize, f64)> {
-        self.lengths
+        self.lengths[..self.clear]
             .windows(2)
             .filter(|pair| pair[1].0 == pair[0].0 + 1 && !self.is_left_out(pair[1].0))
             .map(|pair| (pair[1].0, (pair[1].1 / pair[0].1).ln()))
             .collect()
     }
 
-    /// The plain geometric mean of the ratios, from the first flight to the last.
+    /// The plain geometric mean of the ratios, from the first flight to the last that is known well enough.
     ///
     /// # Formula
     /// ```text
     /// ln e = Σ ln(T_b / T_a) / Σ (b − a),   σ = s / √m
     /// ```
-    /// `T_a` and `T_b` are the first and last flight; where bounces are left out, those of each piece between them. s is the standard deviation of the m ratios about their mean. Where
+    /// `T_a` and `T_b` are the first and last flight; where bounces are left out, those of each piece between them. s
+    /// is the standard deviation of the m ratios about their mean. Where
     /// each rebound scatters by itself this is the right error; where the times' jitter rules, neighbouring ratios
     /// err in opposite directions and it is too wide, never too narrow. A trend (drag) widens it too. One ratio has no
     /// error.
@@ -83,7 +99,7 @@ impl Flights {
     #[must_use]
     pub fn ratio(&self) -> Option<Estimate> {
         let (mut bounces, mut lost) = (0, 0.0);
-        for pair in self.lengths.windows(2) {
+        for pair in self.lengths[..self.clear].windows(2) {
             let ((a, before), (b, after)) = (pair[0], pair[1]);
             if !(a + 1..=b).any(|bounce| self.is_left_out(bounce)) {
                 bounces += b - a;
@@ -170,6 +186,17 @@ mod tests {
             (true, None, None)
         );
         assert!((flights.ratio().unwrap().value - 0.8).abs() < 1e-12);
+    }
+
+    #[test]
+    fn vague_flights_at_the_end_have_no_say() {
+        let mut impacts = drop(0.5, &[0.8; 12]);
+        for impact in &mut impacts[11..] {
+            impact.time_s += 0.01;
+            impact.std_s = 0.02;
+        }
+        let estimate = Flights::between(&impacts).ratio().unwrap();
+        assert!((estimate.value - 0.8).abs() < 1e-12);
     }
 
     #[test]

@@ -121,8 +121,8 @@ mod tests {
             at_s += flight_s;
             flight_s *= 0.88 * (0.01 * rng.normal()).exp();
         }
-        for _ in 0..150 {
-            add(6.0 * rng.uniform(), 15.0 * (0.8 * rng.normal()).exp());
+        for _ in 0..600 {
+            add(6.0 * rng.uniform(), 25.0 * (0.8 * rng.normal()).exp());
         }
         events.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         events
