@@ -128,3 +128,61 @@ fn the_ball_from_50_cm_is_cut_off_and_that_is_said() {
     let first = drop.estimates.first_rebound.unwrap().value;
     assert!((first - 0.892).abs() < 0.003, "{first}");
 }
+
+/// Recordings of the list that are not read whole yet: the tennis ball among rustle has 5 nats where 12 are asked, and the ball
+/// under a voice is found from 2.2 s on.
+const OWED: [&str; 2] = ["tennis-rustle-voice.m4a", "pingpong-under-voice.mov"];
+/// Percent of the onsets that have an impact.
+const FOUND: usize = 85;
+/// A reader's onsets may all be late or early by this much, in seconds.
+const COMMON_S: f64 = 0.015;
+
+#[test]
+fn every_recording_of_the_list_is_read_whole_but_for_those_owed() {
+    let folder = std::env::var_os("BOUNCE_AUDIO_RECORDINGS")
+        .expect("BOUNCE_AUDIO_RECORDINGS names their folder");
+    let text = std::fs::read_to_string(PathBuf::from(folder).join("truth.json")).unwrap();
+    let list: Vec<serde_json::Value> = serde_json::from_str(&text).unwrap();
+    assert!(list.len() >= 12, "{} recordings", list.len());
+    for truth in &list {
+        let name = truth["file"].as_str().unwrap();
+        let complaint = complaint(truth, &listen(name, &Settings::default()));
+        assert_eq!(
+            complaint.is_some(),
+            OWED.contains(&name),
+            "{name}: {complaint:?}"
+        );
+    }
+}
+
+/// What is not as the truth says.
+fn complaint(truth: &serde_json::Value, analysis: &Analysis) -> Option<String> {
+    let numbers = |key: &str| -> Vec<f64> {
+        let list = truth[key].as_array().map(Vec::as_slice).unwrap_or_default();
+        list.iter().filter_map(serde_json::Value::as_f64).collect()
+    };
+    let (drops, expected) = (analysis.drops.len(), truth["drops"].as_u64().unwrap());
+    if drops as u64 != expected {
+        return Some(format!("{drops} drops, expected {expected}"));
+    }
+    let longest = analysis.drops.iter().max_by_key(|d| d.impacts.len())?;
+    let impacts = analysis.drops.iter().flat_map(|d| &d.impacts);
+    let times: Vec<f64> = impacts.map(|i| i.time_s).collect();
+    let least = truth["min_impacts"].as_u64().unwrap();
+    let (onsets, within) = (numbers("onsets_s"), truth["tolerance_s"].as_f64().unwrap());
+    let hits = (-60..=60)
+        .map(|step| COMMON_S / 60.0 * f64::from(step))
+        .map(|common| {
+            let is_hit = |o: &&f64| times.iter().any(|t| (t - common - **o).abs() < within);
+            onsets.iter().filter(is_hit).count()
+        })
+        .max()
+        .unwrap_or(0);
+    let e = longest.estimates.flight_ratio.map(|e| e.value);
+    let range = numbers("e_range");
+    let whole = times.len() as u64 >= least
+        && 100 * hits >= FOUND * onsets.len()
+        && e.is_some_and(|e| (range[0]..=range[1]).contains(&e));
+    let count = onsets.len();
+    (!whole).then(|| format!("{} impacts, {hits} of {count} onsets, e {e:?}", times.len()))
+}
