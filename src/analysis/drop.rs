@@ -37,7 +37,7 @@ pub(super) struct Measured {
     irregular: Vec<Irregular>,
     modelled: Modelled,
     /// Warnings by impacts and sound.
-    warnings: Vec<Warning>,
+    pub warnings: Vec<Warning>,
     /// That the impacts were given.
     pub given: Option<Warning>,
 }

@@ -11,6 +11,7 @@ mod findings;
 mod irregular;
 mod labelled;
 mod listener;
+mod louder_before;
 mod model;
 mod scene;
 mod stretch;

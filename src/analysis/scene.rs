@@ -4,7 +4,7 @@ use super::candidate::Candidate;
 use super::drop::{self, Measured};
 use super::stretch::Stretch;
 use super::tail::{self, Followed};
-use super::{Settings, few, rejected};
+use super::{Settings, few, louder_before, rejected};
 use crate::Error;
 use crate::detect::{Detector, clarity};
 use crate::event::Event;
@@ -103,9 +103,14 @@ pub(super) fn hear(
         }
     }
     kept.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
-    let drops = kept
-        .into_iter()
-        .map(|followed| drop::measure(&stretch, followed, channel, settings));
+    let spans_s: Vec<(f64, f64)> = kept.iter().map(|k| k.chain.span_s()).collect();
+    let drops = kept.into_iter().enumerate().map(|(i, followed)| {
+        let from_s = explained_until_s(i, &spans_s, reported_s);
+        let louder = louder_before::warning(&followed.chain, &events, from_s);
+        let mut measured = drop::measure(&stretch, followed, channel, settings)?;
+        measured.warnings.extend(louder);
+        Ok(measured)
+    });
     let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
     Ok(SceneResult {
         drops,
@@ -185,6 +190,14 @@ impl Edge {
     fn is_deferred(&self, chain: &Chain) -> bool {
         self.is_open(chain) && chain.span_s().0 - LEAD_S > self.oldest_s
     }
+}
+
+/// The time up to which other drops explain what is heard before one of them: the end of those that begin before it.
+fn explained_until_s(drop: usize, spans_s: &[(f64, f64)], reported_s: &[f64]) -> f64 {
+    let first_s = spans_s[drop].0;
+    let earlier = spans_s[..drop].iter().map(|span_s| span_s.1);
+    let reported = reported_s.iter().copied().filter(|&t| t < first_s);
+    earlier.chain(reported).fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// Greatest distance of an impact from one reported already that is the same, in seconds.

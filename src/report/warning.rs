@@ -59,6 +59,8 @@ words! {
         Clipped = "clipped",
         /// Impacts before the recording may be missing.
         LateStart = "late_start",
+        /// Sounds as loud as the first impact and like it stand before it.
+        LouderBefore = "louder_before",
         /// The recording ends before the ball rests.
         CutEnd = "cut_end",
         /// The impacts end before the ball would rest.

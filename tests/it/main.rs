@@ -22,6 +22,7 @@ mod irregular;
 mod labels;
 mod licences;
 mod limits;
+mod louder_before;
 mod paper_figures;
 mod physics_contact;
 mod physics_input;
