@@ -164,8 +164,13 @@ impl<'a> Fitted<'a> {
         let bounces = state.bounces()?;
         let noise = state.noise(&bounces);
         let priors = state.priors();
+        let posterior = Posterior::over_noise(&bounces, &noise, &priors)?;
+        // The posterior is linear about the solution; where it lies beyond what a ball can have it is of no ball.
+        if !state.can_have(|place| posterior.moments(place).0) {
+            return None;
+        }
         Some(Self {
-            posterior: Posterior::over_noise(&bounces, &noise, &priors)?,
+            posterior,
             state,
             bounces,
             noise,

@@ -212,6 +212,17 @@ impl<'a> State<'a> {
         })
     }
 
+    /// Whether C and K are within their ranges after a move of the parameter at each place.
+    pub(super) fn can_have(&self, moved: impl Fn(usize) -> f64) -> bool {
+        let [contact, drag] = self.terms.places();
+        [
+            (contact, self.values.contact_s, self.greatest_contact_s()),
+            (drag, self.values.drag_per_s2, GREATEST_DRAG),
+        ]
+        .into_iter()
+        .all(|(place, now, greatest)| place.is_none_or(|p| now + moved(p) <= greatest))
+    }
+
     /// Holds C and K of a solution within their ranges; gives whether one would be greater.
     fn hold(&self, solution: &mut Solution) -> bool {
         let [contact, drag] = self.terms.places();

@@ -4,6 +4,7 @@ use super::*;
 use crate::fit::model_kind::ModelKind;
 use crate::fit::model_selection::{Choice, Inputs, select};
 use crate::fit::posterior::Posterior;
+use crate::physics::priors::CONTACT_S;
 use crate::physics::{LinearContact, Oscillator, Rebound, ReleaseRule, Restitution};
 use crate::random::SplitMix64;
 
@@ -82,4 +83,18 @@ fn twice_the_rounds_and_a_tenth_of_the_move_change_no_evidence() {
         }
     }
     assert_eq!(compared, 12);
+}
+
+#[test]
+fn a_contact_longer_than_the_flights_is_of_no_ball() {
+    let touches = touches(0.9, 1e-3, 20, 1e-6);
+    let terms = Terms {
+        contact: Some(CONTACT_S),
+        drag: None,
+        speed: None,
+        law: ImpactLaw::Linear,
+    };
+    let state = State::new(&touches, &[], &terms);
+    assert!(state.can_have(|_| 0.0));
+    assert!(!state.can_have(|_| 0.1));
 }
