@@ -83,6 +83,8 @@ fn student(share: f64, degrees_of_freedom: f64) -> f64 {
 #[cfg(test)]
 mod drop_tests;
 #[cfg(test)]
+mod law_tests;
+#[cfg(test)]
 mod oracle_tests;
 
 #[cfg(test)]

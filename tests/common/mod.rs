@@ -35,6 +35,22 @@ pub(crate) fn json(arguments: &[&str]) -> Value {
         .unwrap_or_else(|e| panic!("{e}: {}", text(&output.stderr)))
 }
 
+/// Makes the recording of a scene in a folder; gives its path.
+pub(crate) fn synthesized(folder: &Path, name: &str, scene: &str) -> String {
+    let path = folder.join(format!("{name}.toml"));
+    fs::write(&path, scene).unwrap();
+    let wav = folder.join(format!("{name}.wav")).display().to_string();
+    let made = run(&["synth", &path.display().to_string(), "-o", &wav]);
+    assert!(made.status.success(), "{}", text(&made.stderr));
+    wav
+}
+
+/// The only drop of a document.
+pub(crate) fn only_drop(document: &Value) -> &Value {
+    assert_eq!(document["drops"].as_array().unwrap().len(), 1, "{document}");
+    &document["drops"][0]
+}
+
 pub(crate) fn text(bytes: &[u8]) -> String {
     String::from_utf8(bytes.to_vec()).unwrap()
 }

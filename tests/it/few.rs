@@ -5,31 +5,17 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::{empty_folder, json, run, text};
+use crate::common::{empty_folder, json, only_drop, run, synthesized, text};
 
 /// A ball of e = 0.78 from 1 m that is caught after so many impacts, at 44.1 kHz.
 fn caught(folder: &Path, impacts: usize) -> String {
-    let scene = folder.join(format!("caught-{impacts}.toml"));
-    let content = format!(
+    let scene = format!(
         "name = 'caught'\nsample_rate_hz = 44100\nduration_s = 4.0\npeak_db = -3.0\nnoise.white_db = -62.0\n\
          [[drops]]\nheight_m = 1.0\nmass_kg = 0.05\ndiameter_m = 0.04\ndrag = false\nfirst_impact_s = 1.2\n\
          bounce.constant = {{ restitution = 0.78, contact_time_s = 1e-3 }}\nmost_impacts = {impacts}\n\
          modes = [{{ frequency_hz = 1200.0, decay_s = 4e-3, level = 1.0 }}]\n"
     );
-    fs::write(&scene, content).unwrap();
-    let wav = folder
-        .join(format!("caught-{impacts}.wav"))
-        .display()
-        .to_string();
-    let made = run(&["synth", &scene.display().to_string(), "-o", &wav]);
-    assert!(made.status.success(), "{}", text(&made.stderr));
-    wav
-}
-
-/// The only drop.
-fn drop(document: &Value) -> &Value {
-    assert_eq!(document["drops"].as_array().unwrap().len(), 1, "{document}");
-    &document["drops"][0]
+    synthesized(folder, &format!("caught-{impacts}"), &scene)
 }
 
 fn codes(of: &Value) -> Vec<&str> {
@@ -52,7 +38,7 @@ fn assert_holds(restitution: &Value, method: &str) {
 fn two_impacts_and_a_height_give_e_of_the_first_and_the_rebound() {
     let folder = empty_folder("few", "two");
     let document = json(&["analyze", &caught(&folder, 2), "--height", "1m"]);
-    let drop = drop(&document);
+    let drop = only_drop(&document);
     assert_eq!(
         (drop["bounces"].as_u64(), codes(drop)),
         (Some(2), vec!["few_bounces"])
@@ -75,7 +61,7 @@ fn an_error_of_the_height_is_one_of_e() {
     let wav = caught(&folder, 2);
     let std = |error: &str| {
         let document = json(&["analyze", &wav, "--height", "1m", "--height-error", error]);
-        drop(&document)["restitution"]["std_error"]
+        only_drop(&document)["restitution"]["std_error"]
             .as_f64()
             .unwrap()
     };
@@ -88,7 +74,7 @@ fn an_error_of_the_height_is_one_of_e() {
 fn two_impacts_without_a_height_have_a_rebound_and_no_e() {
     let folder = empty_folder("few", "bare");
     let document = json(&["analyze", &caught(&folder, 2)]);
-    let drop = drop(&document);
+    let drop = only_drop(&document);
     assert!(drop["restitution"].is_null() && codes(drop).contains(&"few_bounces"));
     assert!(drop["impacts"][0]["rebound_height_m"].as_f64().unwrap() > 0.5);
 }
@@ -98,11 +84,11 @@ fn three_impacts_give_one_ratio_with_the_error_of_a_single_bounce() {
     let folder = empty_folder("few", "three");
     let wav = caught(&folder, 3);
     assert_holds(
-        &drop(&json(&["analyze", &wav]))["restitution"],
+        &only_drop(&json(&["analyze", &wav]))["restitution"],
         "single_ratio",
     );
     let with_height = json(&["analyze", &wav, "--height", "1m"]);
-    assert_holds(&drop(&with_height)["restitution"], "first_rebound");
+    assert_holds(&only_drop(&with_height)["restitution"], "first_rebound");
 }
 
 #[test]
@@ -131,7 +117,10 @@ fn labels_of_two_impacts_are_fitted() {
     assert_eq!(fs::read_to_string(&labels).unwrap().lines().count(), 2);
     let heard = json(&["analyze", &wav, "--height", "1m"]);
     let fitted = json(&["analyze", &wav, "--height", "1m", "--impacts", &labels]);
-    assert_eq!(drop(&heard)["restitution"], drop(&fitted)["restitution"]);
+    assert_eq!(
+        only_drop(&heard)["restitution"],
+        only_drop(&fitted)["restitution"]
+    );
 }
 
 #[test]
@@ -164,7 +153,7 @@ fn what_comes_nearest_to_a_drop_is_said_written_as_labels_and_can_be_fitted() {
     let none = run(&["analyze", &wav, "--height", "1m", "--labels", &labels]);
     assert_eq!(none.status.code(), Some(1));
     let fitted = json(&["analyze", &wav, "--height", "1m", "--impacts", &labels]);
-    let (taken, offered) = (&drop(&fitted)["impacts"], &candidate["impacts"]);
+    let (taken, offered) = (&only_drop(&fitted)["impacts"], &candidate["impacts"]);
     assert_eq!(
         taken.as_array().unwrap().len(),
         offered.as_array().unwrap().len()

@@ -1,32 +1,20 @@
 //! Bounces that do not go by the e of the others, from the recording to the report.
 
-use std::fs;
 use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::{empty_folder, json, run, text};
+use crate::common::{empty_folder, json, only_drop, run, synthesized, text};
 
 /// A ball of e = 0.88 from half a metre with what else the scene says of its bounces.
 fn bounced(folder: &Path, name: &str, bounces: &str) -> String {
-    let scene = folder.join(format!("{name}.toml"));
-    let content = format!(
+    let scene = format!(
         "name = '{name}'\nsample_rate_hz = 44100\nduration_s = 6.5\npeak_db = -3.0\nnoise.white_db = -62.0\n\
          [[drops]]\nheight_m = 0.5\nmass_kg = 0.046\ndiameter_m = 0.0427\ndrag = false\nfirst_impact_s = 0.8\n\
          bounce.constant = {{ restitution = 0.88, contact_time_s = 5e-4 }}\n{bounces}\n\
          modes = [{{ frequency_hz = 2200.0, decay_s = 3e-3, level = 1.0 }}]\n"
     );
-    fs::write(&scene, content).unwrap();
-    let wav = folder.join(format!("{name}.wav")).display().to_string();
-    let made = run(&["synth", &scene.display().to_string(), "-o", &wav]);
-    assert!(made.status.success(), "{}", text(&made.stderr));
-    wav
-}
-
-/// The only drop.
-fn drop(document: &Value) -> &Value {
-    assert_eq!(document["drops"].as_array().unwrap().len(), 1, "{document}");
-    &document["drops"][0]
+    synthesized(folder, name, &scene)
 }
 
 fn warns(of: &Value, code: &str) -> bool {
@@ -44,7 +32,7 @@ fn an_odd_bounce_is_named_and_e_is_that_of_the_others() {
     let change = "changes = [{ impact = 8, restitution_factor = 0.8, lasting = false }]";
     let wav = bounced(&folder, "odd", change);
     let document = json(&["analyze", &wav]);
-    let drop = drop(&document);
+    let drop = only_drop(&document);
     let named = drop["irregular"].as_array().unwrap();
     assert_eq!(named.len(), 1, "{named:?}");
     assert_eq!(
@@ -70,7 +58,7 @@ fn where_e_changes_both_parts_have_theirs() {
     let folder = empty_folder("irregular", "changed");
     let change = "changes = [{ impact = 10, restitution_factor = 0.94, lasting = true }]";
     let document = json(&["analyze", &bounced(&folder, "changed", change)]);
-    let drop = drop(&document);
+    let drop = only_drop(&document);
     let named = &drop["irregular"][0];
     assert_eq!(
         (&named["impact"], &named["kind"]),
@@ -89,7 +77,7 @@ fn where_e_changes_both_parts_have_theirs() {
 fn bounces_by_turns_are_regular_and_have_a_warning() {
     let folder = empty_folder("irregular", "turns");
     let document = json(&["analyze", &bounced(&folder, "turns", "alternation = 0.08")]);
-    let drop = drop(&document);
+    let drop = only_drop(&document);
     assert!(drop["irregular"].as_array().unwrap().is_empty());
     assert!(warns(drop, "bounces_alternate") && !warns(drop, "irregular_bounces"));
 }
