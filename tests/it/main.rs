@@ -18,6 +18,7 @@ mod compressed;
 mod examples;
 mod few;
 mod first_minute;
+mod invariance;
 mod irregular;
 mod labels;
 mod licences;
