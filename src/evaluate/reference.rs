@@ -20,6 +20,9 @@ pub struct Reference {
 pub struct ReferenceDrop {
     /// When each impact is heard, in seconds from the first sample.
     pub onsets_s: Vec<f64>,
+    /// The same in each channel but the first, whose times `onsets_s` are.
+    #[serde(default)]
+    pub more_onsets_s: Vec<Vec<f64>>,
     /// Whether it can be heard at all.
     pub audible: Vec<bool>,
     /// Least standard error of its time, in seconds.
@@ -54,6 +57,7 @@ impl Reference {
             let fits = |length: usize| length == 0 || length == count;
             let each = drop.restitution_each.len();
             if drop.audible.len() != count
+                || drop.more_onsets_s.iter().any(|o| o.len() != count)
                 || !fits(drop.timing_limit_s.len())
                 || !fits(drop.timing_floor_s.len())
                 || !fits(drop.speeds_m_per_s.len())
@@ -88,6 +92,15 @@ impl Reference {
 }
 
 impl ReferenceDrop {
+    /// How much later than in the first channel an impact is heard in this one, counted from 1.
+    #[must_use]
+    pub fn later_s(&self, impact: usize, channel: usize) -> f64 {
+        let other = channel
+            .checked_sub(2)
+            .and_then(|i| self.more_onsets_s.get(i));
+        other.map_or(0.0, |onsets_s| onsets_s[impact] - self.onsets_s[impact])
+    }
+
     /// e before scatter at a speed, between those of the impacts: linear in ln v, constant beyond the ends.
     #[must_use]
     pub fn restitution_at(&self, speed_m_per_s: f64) -> Option<f64> {

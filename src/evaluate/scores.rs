@@ -1,8 +1,9 @@
 //! What was found in one recording, held against its truth.
 
-use super::matching::{Matching, pair};
+use super::matching::{Matching, Pair, pair};
 use super::reference::{Reference, ReferenceDrop};
 use crate::report::{Analysis, Drop, Impact, Status};
+use crate::statistics::median;
 use crate::units::real;
 
 /// How one recording was analyzed.
@@ -78,11 +79,11 @@ pub fn score(
     let found_s: Vec<f64> = found.iter().map(|(_, i)| i.time_s).collect();
     let truth_s: Vec<f64> = truth.iter().map(|t| t.onset_s).collect();
     let matching = pair(&found_s, &truth_s);
-    let hits: Vec<Hit> = matching
-        .pairs
-        .iter()
-        .filter(|p| truth[p.truth].audible)
-        .map(|p| hit(p.error_s, found[p.found].1, &truth[p.truth]))
+    let errors_s = errors_s(analysis, reference, &found, &truth, &matching);
+    let pairs = matching.pairs.iter().zip(errors_s);
+    let hits: Vec<Hit> = pairs
+        .filter(|(p, _)| truth[p.truth].audible)
+        .map(|(p, error_s)| hit(error_s, found[p.found].1, &truth[p.truth]))
         .collect();
     let mut score = FileScore {
         scene: reference.scene.clone(),
@@ -130,6 +131,23 @@ fn true_impacts(reference: &Reference) -> Vec<TrueImpact> {
     }
     impacts.sort_by(|a, b| a.onset_s.total_cmp(&b.onset_s));
     impacts
+}
+
+/// The error of each pair by the onset in the channel that its drop was heard on, after one common offset.
+fn errors_s(
+    analysis: &Analysis,
+    reference: &Reference,
+    found: &[(usize, &Impact)],
+    truth: &[TrueImpact],
+    matching: &Matching,
+) -> Vec<f64> {
+    let own = |p: &Pair| {
+        let (channel, truth) = (analysis.drops[found[p.found].0].channel, &truth[p.truth]);
+        p.error_s - reference.drops[truth.drop].later_s(truth.index, channel)
+    };
+    let errors_s: Vec<f64> = matching.pairs.iter().map(own).collect();
+    let common_s = median(errors_s.iter().copied()).unwrap_or(0.0);
+    errors_s.iter().map(|e| e - common_s).collect()
 }
 
 /// Impacts that were heard, with the index of their drop, in order of time.
@@ -192,8 +210,7 @@ impl FileScore {
                 continue;
             };
             self.split_drops += claims.len() - 1;
-            let own =
-                |p: &&super::matching::Pair| found[p.found].0 == j && truth[p.truth].drop == d;
+            let own = |p: &&Pair| found[p.found].0 == j && truth[p.truth].drop == d;
             let heard: Vec<usize> = matching
                 .pairs
                 .iter()

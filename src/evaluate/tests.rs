@@ -116,6 +116,24 @@ fn a_perfect_answer_scores_perfectly() {
 }
 
 #[test]
+fn times_are_held_against_the_onsets_of_the_channel_that_a_drop_was_heard_on() {
+    let mut truth = truth();
+    let onsets_s = onsets()
+        .into_iter()
+        .zip([-3e-4, 0.0, 3e-4].into_iter().cycle());
+    let second: Vec<f64> = onsets_s.map(|(t, later_s)| t + 5e-4 + later_s).collect();
+    truth.drops[0].more_onsets_s = vec![second.clone()];
+    for (channel, expected) in [(1, 3e-4), (2, 0.0)] {
+        let mut drop = drop_of(&second, E, 0.01);
+        drop.channel = channel;
+        let hits = score(&analysis(vec![drop]), &truth, 4.0, 0.02).hits;
+        let worst = hits.iter().map(|h| h.error_s.abs()).fold(0.0, f64::max);
+        assert_eq!(hits.len(), 20);
+        assert!((worst - expected).abs() < 1e-12, "{channel}: {worst}");
+    }
+}
+
+#[test]
 fn an_empty_answer_scores_no_recall_and_no_false_drop() {
     let row = summed(vec![score(&analysis(Vec::new()), &truth(), 4.0, 0.02)]);
     assert_eq!((row.recall, row.precision), (Some(0.0), None));

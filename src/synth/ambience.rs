@@ -4,8 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::babble::Words;
 use super::bursts::{Knocks, Steps};
+use super::half_sine::{exponential, product};
 use super::scene::within;
-use super::sound::{exponential, product, rms};
+use super::sound::rms;
 use super::taps::Taps;
 use super::{babble, bursts, decibels};
 use crate::Error;

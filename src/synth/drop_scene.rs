@@ -61,6 +61,20 @@ pub struct DropScene {
     /// The force lasts as (v/v₁)^this: −0.2 for a solid sphere (Hertz). It changes the sound, not the flights. Default 0.
     #[serde(default)]
     pub contact_exponent: f64,
+    /// How unlike each other impacts sound, from 0 to 1, as each hits another spot of ball and surface. At 1 every mode of every
+    /// impact has a phase of its own from −π to π, a level of its own (standard deviation 6 dB), and every impact another
+    /// loudness (3 dB); below, all three are that share of it. `timing_floor_s` of the truth leaves the phases out. Default 0.
+    #[serde(default)]
+    pub unlike: f64,
+    /// The level of a mode falls with the speed of impacts by (v/v₁)^(this·octaves above the lowest mode) more than that of the
+    /// lowest: by 6 dB an octave for half the speed at 1. Thuds lose their treble so along a drop. Default 0.
+    #[serde(default)]
+    pub treble_loss: f64,
+    /// Sideways speed that each bounce adds, in either direction along the surface, as a share of the speed on leaving: its
+    /// standard deviation. A surface that slopes by an angle turns a rebound by twice as much. The flights stay as they are; the
+    /// ball hits elsewhere, which microphones and walls with a place tell. Default 0.
+    #[serde(default)]
+    pub sideways: f64,
     /// Repetitions of the drop with the same random numbers. Default: none.
     #[serde(default)]
     pub copies: Option<Copies>,
@@ -177,6 +191,9 @@ impl DropScene {
             0.0..=3.0,
             "0 to 3",
         )?;
+        within("unlike", self.unlike, 0.0..=1.0, "0 to 1")?;
+        within("treble_loss", self.treble_loss, 0.0..=3.0, "0 to 3")?;
+        within("sideways", self.sideways, 0.0..=0.5, "0 to 0.5")?;
         within(
             "contact_exponent",
             self.contact_exponent,
@@ -252,6 +269,9 @@ mod tests {
             ),
             ("alternation = 1.5", "alternation"),
             ("frequency_scatter = -0.1", "frequency_scatter"),
+            ("unlike = 1.1", "unlike"),
+            ("treble_loss = -0.1", "treble_loss"),
+            ("sideways = 0.6", "sideways"),
             ("copies = { count = 0, every_s = 1.0 }", "count"),
             ("copies = { count = 4, every_s = 3.0 }", "every_s"),
         ] {

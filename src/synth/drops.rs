@@ -1,8 +1,11 @@
 //! The impacts of a scene's drops, from the physics.
 
+use super::channel::Channel;
+use super::place::{Point, places};
 use super::room::travel_s;
-use super::scene::{BounceChange, BounceScene, DropScene, Mode, Scene, within};
+use super::scene::{BounceChange, BounceScene, DropScene, Scene, within};
 use super::sound::Sound;
+use super::voices::{Blow, Voices};
 use crate::Error;
 use crate::physics::{
     Air, Ball, Bounce, DropSetup, FlightLaw, Impact, LinearContact, Oscillator, Rebound,
@@ -25,7 +28,9 @@ pub(super) struct Strike {
     pub(super) drop: usize,
     /// The touch, in seconds from the recording's first sample.
     pub(super) touch_s: f64,
-    /// Arrival of the sound where the microphone is, before any delay between channels.
+    /// Where on the surface.
+    pub(super) place: Point,
+    /// Arrival of the sound where the microphone is, before what differs between channels.
     pub(super) arrival_s: f64,
     /// e before scatter.
     pub(super) nominal: f64,
@@ -37,6 +42,13 @@ pub(super) struct Strike {
     pub(super) level_scatter: f64,
     /// Its sound at the loudness that its speed gives.
     pub(super) sound: Sound,
+}
+
+impl Strike {
+    /// When a microphone hears it, in seconds from the recording's first sample.
+    pub(super) fn onset_s(&self, channel: Channel) -> f64 {
+        self.arrival_s + channel.later_s(self.place)
+    }
 }
 
 /// A drop as it happens with one seed.
@@ -95,7 +107,6 @@ fn drop(
     let seed = rng.next_u64();
     // What only some scenes vary has its own stream, so that turning it on changes nothing else.
     let mut variety = SplitMix64::new(!seed);
-    let mut pitches = SplitMix64::new(seed.rotate_left(32));
     let height_m = drop.height_m * (1.0 + drop.height_spread * (2.0 * variety.uniform() - 1.0));
     let setup = setup(drop, scene.gravity_m_per_s2, height_m, seed)?;
     let impacts = impacts(drop, &setup)?;
@@ -117,23 +128,24 @@ fn drop(
         .unwrap_or(1e-3);
     within("contact_time_s", contact_time_s, 1e-9..=1.0, "1 ns to 1 s")?;
     let fastest = impacts.first().map_or(1.0, |i| i.impact_speed_m_per_s);
-    let strikes = impacts.into_iter().zip(1..).map(|(impact, number)| {
+    let places = places(
+        &impacts,
+        drop.sideways,
+        SplitMix64::new(seed.rotate_left(48)),
+    );
+    let mut voices = Voices::new(drop, seed, variety);
+    let strikes = (1..).zip(impacts.into_iter().zip(places));
+    let strikes = strikes.map(|(number, (impact, place))| {
         let speed = impact.impact_speed_m_per_s;
         let rolled_m = drop.leaving_m_per_s * (impact.time_s - first_s);
         let distance_m = drop.microphone_distance_m + rolled_m;
-        // Within a hand's breadth of the microphone the level does not grow any more.
-        let fading = drop.microphone_distance_m.max(0.1) / distance_m.max(0.1);
-        let loudness = speed * fading * libm::exp(drop.loudness_scatter * variety.normal());
-        let modes: Vec<Mode> = drop
-            .modes
-            .iter()
-            .map(|m| Mode {
-                frequency_hz: m.frequency_hz * pitches.factor(drop.frequency_scatter),
-                level: m.level * loudness * libm::exp(drop.level_scatter * rng.normal()),
-                ..*m
-            })
-            .collect();
-        let force_s = contact_time_s * libm::pow(speed / fastest, drop.contact_exponent);
+        let blow = Blow {
+            speed_m_per_s: speed,
+            of_first: speed / fastest,
+            // Within a hand's breadth of the microphone the level does not grow any more.
+            fading: drop.microphone_distance_m.max(0.1) / distance_m.max(0.1),
+            contact_time_s,
+        };
         let here = || drop.changes.iter().filter(|c| c.impact == number);
         let lasting = drop
             .changes
@@ -144,11 +156,12 @@ fn drop(
             drop: index,
             odd: here().any(|c| !c.lasting),
             changed: here().any(|c| c.lasting),
-            level_scatter: drop.level_scatter,
+            place,
+            level_scatter: voices.level_scatter(),
             touch_s: impact.time_s + shift_s,
             arrival_s: impact.time_s + shift_s + travel_s(distance_m),
             nominal: (nominal(&setup, speed)? * lasting).min(1.0),
-            sound: Sound::new(&modes, force_s).at_most(followed_s),
+            sound: voices.next(blow, rng).at_most(followed_s),
             impact,
         })
     });

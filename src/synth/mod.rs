@@ -1,17 +1,20 @@
 //! Recordings made from the model, with their true impact times beside them.
 //!
 //! [`scene`] says what is dropped and how it is recorded, [`sound`] gives one impact's sound in closed form at any
-//! instant, [`room`] its reflections, [`ambience`], [`bursts`], [`taps`] and [`babble`] what is heard besides, [`recorder`]
+//! instant, `voices` how the sounds of a drop differ, `place` where on the surface each is, [`room`] its reflections, [`ambience`], [`bursts`], [`taps`] and [`babble`] what is heard besides, [`recorder`]
 //! what becomes of it, [`hearing`] what can be made out. The same scene and seed give the same samples on every machine: all
 //! functions come from `libm`, all random numbers from `random`.
 
 pub mod ambience;
 pub mod babble;
 pub mod bursts;
+pub mod channel;
 mod drop_scene;
 mod drops;
 mod gaps;
+mod half_sine;
 pub mod hearing;
+mod place;
 pub mod presets;
 pub mod recorder;
 pub mod room;
@@ -19,14 +22,15 @@ pub mod scene;
 pub mod sound;
 pub mod taps;
 pub mod truth;
+mod voices;
 
 use crate::Error;
 use crate::random::SplitMix64;
 use crate::units::{real, samples_in};
+use channel::Channel;
 use drops::Strike;
 use hearing::{Background, Heard, Variety};
-use recorder::Channel;
-use room::Room;
+use room::{Arrival, Room};
 use scene::Scene;
 use sound::Rendered;
 use truth::Truth;
@@ -63,7 +67,7 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
         scene,
         rate,
         count,
-        gain: gain(&strikes, rate, real(count) / rate, decibels(scene.peak_db)),
+        gain: gain(scene, &strikes, rate, real(count) / rate),
         room: SplitMix64::new(surroundings.next_u64()),
         shared: SplitMix64::new(surroundings.next_u64()),
     };
@@ -100,13 +104,21 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
 }
 
 /// The factor that brings the loudest impact before the end to a peak; 0 if there is none to be heard.
-fn gain(strikes: &[&Strike], rate: f64, end_s: f64, peak: f64) -> f64 {
+fn gain(scene: &Scene, strikes: &[&Strike], rate: f64, end_s: f64) -> f64 {
+    let nearest = |s: &Strike| {
+        let channels = scene.recorder.channels.iter();
+        channels.map(|c| c.fading(s.place)).fold(0.0, f64::max)
+    };
     let peaks = strikes
         .iter()
         .filter(|s| s.arrival_s < end_s)
-        .map(|s| s.sound.render(rate, s.arrival_s, 1.0).peak());
+        .map(|s| nearest(s) * s.sound.render(rate, s.arrival_s, 1.0).peak());
     let loudest = peaks.fold(0.0, f64::max);
-    if loudest > 0.0 { peak / loudest } else { 0.0 }
+    if loudest > 0.0 {
+        decibels(scene.peak_db) / loudest
+    } else {
+        0.0
+    }
 }
 
 /// A scene about to be recorded.
@@ -132,17 +144,17 @@ impl Stage<'_> {
         let mut ambience = noise.render(self.count, self.rate, own, self.shared);
         let steady = self.steady_autocorrelation(&ambience.steady);
         let room = Room::new(&self.scene.echoes, self.scene.tail, self.rate, self.room);
-        let gain = self.gain * channel.gain();
         let mut heard = Vec::with_capacity(strikes.len());
         // In order of time, so that an impact is heard against what came before it and not against its own echoes.
         for (i, strike) in strikes.iter().enumerate() {
-            let onset_s = strike.arrival_s + channel.delay_s;
+            let onset_s = strike.onset_s(channel);
             if onset_s >= real(self.count) / self.rate {
                 heard.push(Heard::NOTHING);
                 continue;
             }
+            let gain = self.gain * channel.gain(strike.place);
             let direct = strike.sound.render(self.rate, onset_s, gain);
-            let next = strikes.get(i + 1).map(|s| s.arrival_s + channel.delay_s);
+            let next = strikes.get(i + 1).map(|s| s.onset_s(channel));
             let until = next.map_or(self.count, |s| samples_in(s, self.rate));
             let modes = strike.sound.modes(self.rate, onset_s, gain);
             let variety = Variety {
@@ -152,7 +164,15 @@ impl Stage<'_> {
             heard.push(self.hear(&direct, variety, until, &ambience, &steady));
             let passing = &mut ambience.bursts;
             direct.add_to(passing, 0, 1.0);
-            room.add(&strike.sound, &direct, onset_s, gain, self.rate, passing);
+            let arrival = Arrival {
+                sound: &strike.sound,
+                direct: &direct,
+                onset_s,
+                gain,
+            };
+            let walls = self.scene.walls.iter();
+            let of_walls = walls.filter_map(|w| w.reflection(strike.place, channel.at_m?));
+            room.add(arrival, of_walls, self.rate, passing);
         }
         let sum = ambience.steady.iter().zip(&ambience.bursts);
         (sum.map(|(a, b)| a + b).collect(), heard)
@@ -245,5 +265,7 @@ fn sample_after(time_s: f64, rate: f64) -> SampleAt {
     }
 }
 
+#[cfg(test)]
+mod place_tests;
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+pub use super::channel::Channel;
 use super::decibels;
 pub use super::gaps::Gap;
 use super::gaps::check_gaps;
@@ -68,18 +69,6 @@ pub struct AutomaticGain {
     pub release_s: f64,
 }
 
-/// One microphone.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Channel {
-    /// Impacts are heard this much later than in the scene, in seconds. May be negative.
-    pub delay_s: f64,
-    /// Level of impacts in dB.
-    pub level_db: f64,
-    /// Whether its sign is turned.
-    pub inverted: bool,
-}
-
 impl Default for Recorder {
     fn default() -> Self {
         Self {
@@ -94,24 +83,6 @@ impl Default for Recorder {
             drop_outs: Vec::new(),
             splices: Vec::new(),
         }
-    }
-}
-
-impl Default for Channel {
-    fn default() -> Self {
-        Self {
-            delay_s: 0.0,
-            level_db: 0.0,
-            inverted: false,
-        }
-    }
-}
-
-impl Channel {
-    /// Factor on the pressure.
-    pub(super) fn gain(&self) -> f64 {
-        let sign = if self.inverted { -1.0 } else { 1.0 };
-        sign * decibels(self.level_db)
     }
 }
 
@@ -161,8 +132,7 @@ impl Recorder {
             within("release_s", gain.release_s, 1e-5..=100.0, "10 us to 100 s")?;
         }
         for channel in &self.channels {
-            within("delay_s", channel.delay_s, -1.0..=1.0, "-1 to 1 s")?;
-            within("level_db", channel.level_db, -200.0..=40.0, "-200 to 40")?;
+            channel.check()?;
         }
         check_gaps(&self.drop_outs, self.start_s, end)?;
         check_gaps(&self.splices, self.start_s, end)?;

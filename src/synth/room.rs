@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::decibels;
+use super::place::Reflection;
 use super::scene::within;
 use super::sound::{Rendered, Sound};
 use crate::Error;
@@ -52,7 +53,16 @@ impl Tail {
     }
 }
 
-/// A room: the same for all impacts of a recording.
+/// An impact as a microphone hears it first.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Arrival<'a> {
+    pub(super) sound: &'a Sound,
+    pub(super) direct: &'a Rendered,
+    pub(super) onset_s: f64,
+    pub(super) gain: f64,
+}
+
+/// A room: the same for all impacts of a recording, but for what its walls send back.
 #[derive(Debug, Clone)]
 pub(super) struct Room<'a> {
     echoes: &'a [Echo],
@@ -73,25 +83,29 @@ impl<'a> Room<'a> {
         }
     }
 
-    /// Adds what comes back of an impact. Early reflections are evaluated at their own instants, diffuse ones fall on
-    /// whole samples after the direct sound.
+    /// Adds what comes back of an impact, by way of the walls too. Early reflections are evaluated at their own instants,
+    /// diffuse ones fall on whole samples after the direct sound.
     pub(super) fn add(
         &self,
-        sound: &Sound,
-        direct: &Rendered,
-        onset_s: f64,
-        gain: f64,
+        arrival: Arrival<'_>,
+        of_walls: impl Iterator<Item = Reflection>,
         rate: f64,
         samples: &mut [f64],
     ) {
-        for echo in self.echoes {
-            sound
-                .render(rate, onset_s + echo.delay_s, gain * decibels(echo.level_db))
+        let Arrival { onset_s, gain, .. } = arrival;
+        let echoes = self.echoes.iter().map(|echo| Reflection {
+            later_s: echo.delay_s,
+            level: decibels(echo.level_db),
+        });
+        for early in echoes.chain(of_walls) {
+            arrival
+                .sound
+                .render(rate, onset_s + early.later_s, gain * early.level)
                 .add_to(samples, 0, 1.0);
         }
-        let held = direct.samples_holding(REFLECTED_SHARE);
+        let held = arrival.direct.samples_holding(REFLECTED_SHARE);
         for &(delay, level) in &self.taps {
-            direct.add_start_to(held, samples, delay, level);
+            arrival.direct.add_start_to(held, samples, delay, level);
         }
     }
 }

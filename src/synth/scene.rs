@@ -9,6 +9,7 @@ use crate::Error;
 use crate::units::real;
 
 pub use super::drop_scene::{BounceChange, BounceScene, Copies, DropScene, Mode};
+pub use super::place::Wall;
 pub use super::presets::preset;
 
 /// Samples that are made at most, as some 20 bytes of memory go with each: 38 minutes of one channel at 44.1 kHz.
@@ -40,6 +41,9 @@ pub struct Scene {
     /// Early reflections of every impact.
     #[serde(default)]
     pub echoes: Vec<Echo>,
+    /// Walls, whose reflections differ with the place of the impact; every channel needs its own place then.
+    #[serde(default)]
+    pub walls: Vec<Wall>,
     /// The diffuse end of the room's answer, if it has one.
     #[serde(default)]
     pub tail: Option<Tail>,
@@ -95,6 +99,7 @@ impl Scene {
         for echo in &self.echoes {
             echo.check()?;
         }
+        self.check_places()?;
         self.tail.map_or(Ok(()), |tail| tail.check())?;
         self.noise.check()?;
         self.recorder.check(self.duration_s)?;
@@ -106,6 +111,24 @@ impl Scene {
                 argument: "the recording",
                 got: format!("{samples:.0} samples long, over all channels"),
                 expected: "100000000 at most: a shorter duration_s, a lower sample_rate_hz or fewer channels",
+            });
+        }
+        Ok(())
+    }
+}
+
+impl Scene {
+    /// Whether microphones with a place go with walls and drops.
+    fn check_places(&self) -> Result<(), Error> {
+        let places = self.recorder.channels.iter().map(|c| c.at_m);
+        let places: Vec<_> = places.collect();
+        self.walls.iter().try_for_each(|wall| wall.check(&places))?;
+        let far = |d: &DropScene| d.microphone_distance_m > 0.0 || d.leaving_m_per_s > 0.0;
+        if places.iter().any(Option::is_some) && self.drops.iter().any(far) {
+            return Err(Error::Argument {
+                argument: "at_m",
+                got: "beside a microphone_distance_m or leaving_m_per_s".to_owned(),
+                expected: "one of them: each says where the microphone is",
             });
         }
         Ok(())

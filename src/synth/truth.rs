@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::Stage;
+use super::channel::Channel;
 use super::drops::{Dropped, Strike};
 use super::hearing::Heard;
 use super::scene::Scene;
@@ -34,6 +35,8 @@ pub struct DropTruth {
     pub impacts_s: Vec<f64>,
     /// When its sound reached the first channel's microphone, in seconds from the first sample.
     pub onsets_s: Vec<f64>,
+    /// The same for each other channel, in their order.
+    pub more_onsets_s: Vec<Vec<f64>>,
     /// Whether each impact can be heard: see [`super::hearing`].
     pub audible: Vec<bool>,
     /// Energy of the sound over the noise in its window after the best filter, in dB, in the clearest channel.
@@ -83,7 +86,7 @@ impl Stage<'_> {
     /// What is true of a drop, given its impacts as they were heard.
     pub(super) fn truth(&self, dropped: &Dropped, own: &[(&Strike, Heard)]) -> DropTruth {
         let end_s = real(self.count) / self.rate;
-        let onset_s = |s: &Strike| s.arrival_s + self.delay_s();
+        let onset_s = |s: &Strike| s.onset_s(self.first());
         let before = own.iter().filter(|(s, _)| onset_s(s) < 0.0).count();
         let after = own.iter().filter(|(s, _)| onset_s(s) >= end_s).count();
         let within = &own[before..own.len() - after];
@@ -99,6 +102,7 @@ impl Stage<'_> {
         DropTruth {
             impacts_s: list(|k| k.touch_s),
             onsets_s: list(|k| k.onset_s),
+            more_onsets_s: self.more_onsets_s(&kept),
             energy_to_noise_db: list(|k| k.heard.energy_to_noise_db),
             timing_limit_s: list(|k| k.heard.timing_limit_s),
             timing_floor_s: list(|k| k.heard.timing_floor_s),
@@ -121,15 +125,25 @@ impl Stage<'_> {
         }
     }
 
-    /// Delay of the first channel in seconds.
-    fn delay_s(&self) -> f64 {
+    /// The first channel.
+    fn first(&self) -> Channel {
         let channels = self.scene.recorder.channels.first();
-        channels.map_or(0.0, |c| c.delay_s)
+        channels.copied().unwrap_or_default()
+    }
+
+    /// When impacts are heard in each channel but the first.
+    fn more_onsets_s(&self, kept: &[Kept<'_>]) -> Vec<Vec<f64>> {
+        let others = self.scene.recorder.channels.iter().skip(1);
+        let onsets_s = |channel: &Channel| {
+            let onsets_s = kept.iter().map(|k| k.strike.onset_s(*channel) - k.cut_s);
+            onsets_s.collect()
+        };
+        others.map(onsets_s).collect()
     }
 
     /// An impact in the times of the file; none if it is cut out.
     fn kept<'a>(&self, strike: &'a Strike, heard: Heard) -> Option<Kept<'a>> {
-        let onset_s = strike.arrival_s + self.delay_s();
+        let onset_s = strike.onset_s(self.first());
         let cut_s = self.scene.recorder.cut_before_s(onset_s, self.rate)?;
         Some(Kept {
             strike,

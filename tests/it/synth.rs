@@ -1,8 +1,9 @@
 //! Recordings measured by methods that know nothing of how they were made.
 
+use bounce_audio::synth::recorder::Channel;
 use bounce_audio::synth::scene::{Mode, Scene, preset};
 use bounce_audio::synth::{Synthetic, render};
-use bounce_audio::units::samples_in;
+use bounce_audio::units::{real, samples_in};
 
 /// A scene without noise in floating point, every impact of which sounds alike but for its loudness.
 fn clean(name: &str) -> Scene {
@@ -30,16 +31,24 @@ fn power_at(frequency_hz: f64, samples: &[f32], rate: f64) -> f64 {
     sum.0 * sum.0 + sum.1 * sum.1
 }
 
-/// Delay of one impact's sound after another's, in seconds, from the phase of their cross spectrum: the slope of the
-/// phase against frequency, weighted by power, around a whole number of samples.
+/// Delay of one impact's sound after another's, in seconds.
 fn delay_s(made: &Synthetic, early: usize, late: usize) -> f64 {
-    let rate = f64::from(made.truth.sample_rate_hz);
     let times = &made.truth.drops[0].impacts_s;
+    between_s(made, [&made.samples; 2], [times[early], times[late]])
+}
+
+/// Delay of the sound at a time of one channel after that at a time of another, in seconds, from the phase of their cross
+/// spectrum: the slope of the phase against frequency, weighted by power, around a whole number of samples.
+fn between_s(made: &Synthetic, channels: [&Vec<f32>; 2], at_s: [f64; 2]) -> f64 {
+    let rate = f64::from(made.truth.sample_rate_hz);
     let length = 1024;
     // Both pieces begin some samples before the onset, as a listener would cut them.
-    let first = samples_in(times[early], rate) - 20;
-    let second = first + samples_in(times[late] - times[early], rate);
-    let pieces = [first, second].map(|at| &made.samples[at..at + length]);
+    let first = samples_in(at_s[0], rate) - 20;
+    let second = samples_in(at_s[1] - at_s[0] + real(first) / rate, rate);
+    let pieces = [
+        &channels[0][first..first + length],
+        &channels[1][second..second + length],
+    ];
     let (mut weighted, mut weights) = (0.0, 0.0);
     for bin in 1..length / 2 {
         let step = std::f64::consts::TAU * bin as f64 / length as f64;
@@ -55,7 +64,7 @@ fn delay_s(made: &Synthetic, early: usize, late: usize) -> f64 {
         weighted += power * step * cross.1.atan2(cross.0);
         weights += power * step * step;
     }
-    ((second - first) as f64 + weighted / weights) / rate
+    (real(second) - real(first) + weighted / weights) / rate
 }
 
 #[test]
@@ -93,6 +102,33 @@ fn flights_measured_by_phase_are_those_of_the_truth() {
             assert!(off.abs() < 0.1, "{name} {late}: {off} samples");
         }
     }
+}
+
+#[test]
+fn each_channel_hears_a_ball_that_wanders_at_times_of_its_own() {
+    let mut scene = clean("steel");
+    scene.drops[0].sideways = 0.01;
+    let at_m = [Some([0.35, 0.0, 0.1]), Some([-0.3, 0.2, 0.1])];
+    scene.recorder.channels = at_m
+        .map(|at_m| Channel {
+            at_m,
+            ..Channel::default()
+        })
+        .to_vec();
+    let made = render(&scene, 1).unwrap();
+    let drop = &made.truth.drops[0];
+    let mut delays_s = Vec::new();
+    for i in 0..12 {
+        let onsets_s = [drop.onsets_s[i], drop.more_onsets_s[0][i]];
+        let measured = between_s(&made, [&made.samples, &made.more_channels[0]], onsets_s);
+        let off = (measured - (onsets_s[1] - onsets_s[0])) * f64::from(scene.sample_rate_hz);
+        assert!(off.abs() < 0.1, "{i}: {off} samples");
+        delays_s.push(measured);
+    }
+    let (least, most) = (f64::min, f64::max);
+    let range = delays_s.iter().copied().fold(f64::NEG_INFINITY, most)
+        - delays_s.iter().copied().fold(f64::INFINITY, least);
+    assert!(range > 1e-4, "it wanders by {range} s only");
 }
 
 #[test]
