@@ -1,12 +1,17 @@
 //! One microphone: when it hears an impact and how loud.
 
+use std::borrow::Cow;
+
 use serde::{Deserialize, Serialize};
 
-use super::decibels;
+use super::drops::Strike;
 use super::place::{Point, distance_m};
 use super::room::travel_s;
 use super::scene::within;
+use super::sound::Sound;
+use super::{decibels, voices};
 use crate::Error;
+use crate::random::SplitMix64;
 
 /// One microphone.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
@@ -22,16 +27,33 @@ pub struct Channel {
     /// Sound then comes later by its way from the place of each impact, and its level falls as one over that way; at the first
     /// place it is `level_db`. Default: nowhere, so that the place of an impact changes nothing.
     pub at_m: Option<Point>,
+    /// How much otherwise than in the scene each impact sounds here, from 0 to 1, as modes radiate to each side otherwise: every
+    /// mode with a phase and a level of its own, as far as `unlike` of a drop says. Default 0.
+    pub unlike: f64,
 }
 
 impl Channel {
     pub(super) fn check(&self) -> Result<(), Error> {
         within("delay_s", self.delay_s, -1.0..=1.0, "-1 to 1 s")?;
         within("level_db", self.level_db, -200.0..=40.0, "-200 to 40")?;
+        within("unlike", self.unlike, 0.0..=1.0, "0 to 1")?;
         let [x, y, z] = self.at_m.unwrap_or([0.0, 0.0, 1.0]);
         within("at_m", x, -1e3..=1e3, "-1 to 1 km along the surface")?;
         within("at_m", y, -1e3..=1e3, "-1 to 1 km along the surface")?;
         within("at_m", z, 0.01..=1e3, "1 cm to 1 km above the surface")
+    }
+
+    /// The sounds of impacts as they are heard here.
+    pub(super) fn sounds<'a>(
+        &self,
+        strikes: &[&'a Strike],
+        mut rng: SplitMix64,
+    ) -> Vec<Cow<'a, Sound>> {
+        let mut heard = |sound: &'a Sound| match self.unlike {
+            0.0 => Cow::Borrowed(sound),
+            unlike => Cow::Owned(sound.unlike(|| voices::unlike(unlike, &mut rng))),
+        };
+        strikes.iter().map(|s| heard(&s.sound)).collect()
     }
 
     /// Factor on the pressure of an impact at a place.

@@ -24,6 +24,8 @@ pub mod taps;
 pub mod truth;
 mod voices;
 
+use std::borrow::Cow;
+
 use crate::Error;
 use crate::random::SplitMix64;
 use crate::units::{real, samples_in};
@@ -32,7 +34,7 @@ use drops::Strike;
 use hearing::{Background, Heard, Variety};
 use room::{Arrival, Room};
 use scene::Scene;
-use sound::Rendered;
+use sound::{Rendered, Sound};
 use truth::Truth;
 
 /// A recording made from a scene.
@@ -63,18 +65,24 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
     let drops = drops::all(scene, followed_s, &mut rng)?;
     let mut strikes: Vec<&Strike> = drops.iter().flat_map(|d| &d.strikes).collect();
     strikes.sort_by(|a, b| a.arrival_s.total_cmp(&b.arrival_s));
+    // Each channel's own way of hearing has a stream of its own too.
+    let mut ears = SplitMix64::new(seed.rotate_left(32));
+    let channels = scene.recorder.channels.iter();
+    let sounds: Vec<_> = channels
+        .map(|c| c.sounds(&strikes, SplitMix64::new(ears.next_u64())))
+        .collect();
     let stage = Stage {
         scene,
         rate,
         count,
-        gain: gain(scene, &strikes, rate, real(count) / rate),
+        gain: gain(scene, &strikes, &sounds, rate, real(count) / rate),
         room: SplitMix64::new(surroundings.next_u64()),
         shared: SplitMix64::new(surroundings.next_u64()),
     };
     let mut heard = vec![Heard::NOTHING; strikes.len()];
     let mut channels = Vec::new();
-    for channel in &scene.recorder.channels {
-        let (sound, here) = stage.listen(*channel, &strikes, rng);
+    for (channel, sounds) in scene.recorder.channels.iter().zip(&sounds) {
+        let (sound, here) = stage.listen(*channel, &strikes, sounds, rng);
         rng = SplitMix64::new(surroundings.next_u64());
         channels.push(sound);
         heard = heard.iter().zip(here).map(|(a, b)| a.or(b)).collect();
@@ -104,15 +112,20 @@ pub fn render(scene: &Scene, seed: u64) -> Result<Synthetic, Error> {
 }
 
 /// The factor that brings the loudest impact before the end to a peak; 0 if there is none to be heard.
-fn gain(scene: &Scene, strikes: &[&Strike], rate: f64, end_s: f64) -> f64 {
-    let nearest = |s: &Strike| {
-        let channels = scene.recorder.channels.iter();
-        channels.map(|c| c.fading(s.place)).fold(0.0, f64::max)
-    };
-    let peaks = strikes
-        .iter()
-        .filter(|s| s.arrival_s < end_s)
-        .map(|s| nearest(s) * s.sound.render(rate, s.arrival_s, 1.0).peak());
+fn gain(
+    scene: &Scene,
+    strikes: &[&Strike],
+    sounds: &[Vec<Cow<'_, Sound>>],
+    rate: f64,
+    end_s: f64,
+) -> f64 {
+    let channels = scene.recorder.channels.iter().zip(sounds);
+    let peaks = channels.flat_map(|(channel, sounds)| {
+        let strikes = strikes.iter().zip(sounds);
+        strikes
+            .filter(|(s, _)| s.arrival_s < end_s)
+            .map(|(s, sound)| channel.fading(s.place) * sound.render(rate, s.arrival_s, 1.0).peak())
+    });
     let loudest = peaks.fold(0.0, f64::max);
     if loudest > 0.0 {
         decibels(scene.peak_db) / loudest
@@ -138,6 +151,7 @@ impl Stage<'_> {
         &self,
         channel: Channel,
         strikes: &[&Strike],
+        sounds: &[Cow<'_, Sound>],
         own: SplitMix64,
     ) -> (Vec<f64>, Vec<Heard>) {
         let noise = &self.scene.noise;
@@ -146,17 +160,17 @@ impl Stage<'_> {
         let room = Room::new(&self.scene.echoes, self.scene.tail, self.rate, self.room);
         let mut heard = Vec::with_capacity(strikes.len());
         // In order of time, so that an impact is heard against what came before it and not against its own echoes.
-        for (i, strike) in strikes.iter().enumerate() {
+        for (i, (strike, sound)) in strikes.iter().zip(sounds).enumerate() {
             let onset_s = strike.onset_s(channel);
             if onset_s >= real(self.count) / self.rate {
                 heard.push(Heard::NOTHING);
                 continue;
             }
             let gain = self.gain * channel.gain(strike.place);
-            let direct = strike.sound.render(self.rate, onset_s, gain);
+            let direct = sound.render(self.rate, onset_s, gain);
             let next = strikes.get(i + 1).map(|s| s.onset_s(channel));
             let until = next.map_or(self.count, |s| samples_in(s, self.rate));
-            let modes = strike.sound.modes(self.rate, onset_s, gain);
+            let modes = sound.modes(self.rate, onset_s, gain);
             let variety = Variety {
                 modes: &modes,
                 level_scatter: strike.level_scatter,
@@ -165,7 +179,7 @@ impl Stage<'_> {
             let passing = &mut ambience.bursts;
             direct.add_to(passing, 0, 1.0);
             let arrival = Arrival {
-                sound: &strike.sound,
+                sound,
                 direct: &direct,
                 onset_s,
                 gain,

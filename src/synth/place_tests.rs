@@ -54,20 +54,47 @@ fn a_ball_that_wanders_is_heard_with_a_delay_that_does_and_flies_as_before() {
     assert!((1e-5..1e-3).contains(&farthest), "{farthest}");
 }
 
-/// Correlation of the sounds of the first impact and of the seventh, 15 ms long.
+/// Correlation of two sounds.
+fn correlation(a: &[f32], b: &[f32]) -> f64 {
+    let dot = |a: &[f32], b: &[f32]| -> f64 {
+        let products = a.iter().zip(b).map(|(x, y)| f64::from(x * y));
+        products.sum()
+    };
+    dot(a, b) / (dot(a, a) * dot(b, b)).sqrt()
+}
+
+/// That of the first impact and of the seventh, 15 ms long.
 fn likeness(scene: &Scene) -> f64 {
     let made = render(scene, 1).unwrap();
     let onsets_s = &made.truth.drops[0].onsets_s;
     let rate = f64::from(scene.sample_rate_hz);
     let [a, b] = [0, 6].map(|i| {
         let at = samples_in(onsets_s[i], rate);
-        made.samples[at..at + samples_in(0.015, rate)].to_vec()
+        &made.samples[at..at + samples_in(0.015, rate)]
     });
-    let dot = |a: &[f32], b: &[f32]| -> f64 {
-        let products = a.iter().zip(b).map(|(x, y)| f64::from(x * y));
-        products.sum()
+    correlation(a, b)
+}
+
+#[test]
+fn a_channel_that_hears_otherwise_does_so_alone() {
+    let heard = |unlike| {
+        let mut scene = scene(0.0, false);
+        scene.recorder.channels[1] = Channel {
+            unlike,
+            ..scene.recorder.channels[0]
+        };
+        let mut made = render(&scene, 1).unwrap();
+        (made.samples, made.more_channels.remove(0))
     };
-    dot(&a, &b) / (dot(&a, &a) * dot(&b, &b)).sqrt()
+    let (first, same) = heard(0.0);
+    assert!(first == same);
+    let (again, half) = heard(0.5);
+    let (_, other) = heard(1.0);
+    // The loudest of both channels has the peak of the scene, so that the first may be quieter than before.
+    assert!(correlation(&first, &again) > 0.999);
+    let (half, whole) = (correlation(&again, &half), correlation(&first, &other));
+    assert!((0.2..0.9).contains(&half), "{half}");
+    assert!(whole.abs() < 0.3, "{whole}");
 }
 
 #[test]

@@ -63,7 +63,7 @@ impl Sound {
     pub fn with_phases(modes: impl IntoIterator<Item = (Mode, f64)>, contact_time_s: f64) -> Self {
         let partials = modes.into_iter().map(|(mode, phase)| Partial {
             mode,
-            turn: (libm::cos(phase), libm::sin(phase)),
+            turn: turned(phase),
         });
         Self {
             partials: partials.collect(),
@@ -77,6 +77,17 @@ impl Sound {
     pub const fn at_most(mut self, longest_s: f64) -> Self {
         self.longest_s = longest_s;
         self
+    }
+
+    /// The same with each mode at another level and phase: a factor, and radians that are added.
+    pub(super) fn unlike(&self, mut by: impl FnMut() -> (f64, f64)) -> Self {
+        let mut other = self.clone();
+        for partial in &mut other.partials {
+            let (factor, phase) = by();
+            partial.mode.level *= factor;
+            partial.turn = product(partial.turn, turned(phase));
+        }
+        other
     }
 
     /// The samples, at a rate, of an impact at `onset_s`, times `gain`.
@@ -190,6 +201,11 @@ impl Rendered {
             0.0
         }
     }
+}
+
+/// exp(iφ).
+fn turned(phase: f64) -> Complex {
+    (libm::cos(phase), libm::sin(phase))
 }
 
 fn add(sound: &[f64], first: i64, later: usize, gain: f64, samples: &mut [f64]) {

@@ -12,6 +12,13 @@ const UNLIKE_IMPACT_DB: f64 = 3.0;
 /// ln of the pressure in 1 dB.
 const LN_OF_DB: f64 = std::f64::consts::LN_10 / 20.0;
 
+/// Factor on the level of a mode, and what is added to its phase in radians, of sounds that are unlike each other from 0 to 1.
+pub(super) fn unlike(unlike: f64, rng: &mut SplitMix64) -> (f64, f64) {
+    let factor = rng.factor(LN_OF_DB * UNLIKE_MODE_DB * unlike);
+    let phase = std::f64::consts::PI * unlike * (2.0 * rng.uniform() - 1.0);
+    (factor, phase)
+}
+
 /// What an impact's speed and way say of its loudness and contact.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Blow {
@@ -71,9 +78,7 @@ impl<'a> Voices<'a> {
             .modes
             .iter()
             .map(|m| {
-                let own = self.unlike.factor(LN_OF_DB * UNLIKE_MODE_DB * drop.unlike);
-                let phase =
-                    std::f64::consts::PI * drop.unlike * (2.0 * self.unlike.uniform() - 1.0);
+                let (own, phase) = unlike(drop.unlike, &mut self.unlike);
                 let frequency_hz = m.frequency_hz * self.pitches.factor(drop.frequency_scatter);
                 let level = m.level * loudness * libm::exp(drop.level_scatter * levels.normal());
                 let mode = Mode {
