@@ -36,5 +36,6 @@ mod plot;
 mod solve;
 mod synth;
 mod synthetic;
+mod two_microphones;
 mod wav_variants;
 mod writing;
