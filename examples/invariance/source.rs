@@ -9,7 +9,7 @@ use bounce_audio::synth::scene::preset;
 use super::recording::Recording;
 
 /// Scenes of all kinds of ball, surface, room and recorder; each is made with seed 1.
-const SCENES: [&str; 20] = [
+const SCENES: [&str; 23] = [
     "steel",
     "pingpong",
     "rubber",
@@ -30,6 +30,9 @@ const SCENES: [&str; 20] = [
     "hum",
     "noisy",
     "unlike",
+    "half-alike",
+    "thuds",
+    "wandering",
 ];
 
 /// A recording by what it is made from.

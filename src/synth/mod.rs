@@ -173,7 +173,10 @@ impl Stage<'_> {
             let modes = sound.modes(self.rate, onset_s, gain);
             let variety = Variety {
                 modes: &modes,
-                level_scatter: strike.level_scatter,
+                level_scatter: libm::hypot(
+                    strike.level_scatter,
+                    voices::level_scatter(channel.unlike),
+                ),
             };
             heard.push(self.hear(&direct, variety, until, &ambience, &steady));
             let passing = &mut ambience.bursts;

@@ -14,9 +14,14 @@ const LN_OF_DB: f64 = std::f64::consts::LN_10 / 20.0;
 
 /// Factor on the level of a mode, and what is added to its phase in radians, of sounds that are unlike each other from 0 to 1.
 pub(super) fn unlike(unlike: f64, rng: &mut SplitMix64) -> (f64, f64) {
-    let factor = rng.factor(LN_OF_DB * UNLIKE_MODE_DB * unlike);
+    let factor = rng.factor(level_scatter(unlike));
     let phase = std::f64::consts::PI * unlike * (2.0 * rng.uniform() - 1.0);
     (factor, phase)
+}
+
+/// Standard deviation of ln level of each mode, of sounds that are unlike each other from 0 to 1.
+pub(super) fn level_scatter(unlike: f64) -> f64 {
+    LN_OF_DB * UNLIKE_MODE_DB * unlike
 }
 
 /// What an impact's speed and way say of its loudness and contact.
@@ -56,8 +61,7 @@ impl<'a> Voices<'a> {
 
     /// Standard deviation of ln level of each mode.
     pub(super) fn level_scatter(&self) -> f64 {
-        let unlike = LN_OF_DB * UNLIKE_MODE_DB * self.drop.unlike;
-        libm::hypot(self.drop.level_scatter, unlike)
+        libm::hypot(self.drop.level_scatter, level_scatter(self.drop.unlike))
     }
 
     /// The sound of the next impact.
