@@ -23,7 +23,7 @@ struct Row {
 
 pub(crate) fn print(sources: &[Source]) {
     println!(
-        "recording                     | variants | drops | e off by std: worst | median | impacts lost | gained | drops lost | gained | t off by std: worst | worst e by"
+        "recording                     | variants | drops | e off by std: worst | median | impacts lost | gained | drops lost | gained | t off by std: worst | worst by"
     );
     let rows = each(sources, row);
     for row in &rows {

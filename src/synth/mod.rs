@@ -1,8 +1,9 @@
 //! Recordings made from the model, with their true impact times beside them.
 //!
 //! [`scene`] says what is dropped and how it is recorded, [`sound`] gives one impact's sound in closed form at any
-//! instant, `voices` how the sounds of a drop differ, `place` where on the surface each is, [`room`] its reflections, [`ambience`], [`bursts`], [`taps`] and [`babble`] what is heard besides, [`recorder`]
-//! what becomes of it, [`hearing`] what can be made out. The same scene and seed give the same samples on every machine: all
+//! instant, `voices` how the sounds of a drop differ, `place` where on the surface each of them is, [`room`] its reflections,
+//! [`ambience`], [`bursts`], [`taps`] and [`babble`] what is heard besides, [`channel`] what a microphone makes of it, [`recorder`]
+//! what becomes of that, [`hearing`] what can be made out. The same scene and seed give the same samples on every machine: all
 //! functions come from `libm`, all random numbers from `random`.
 
 pub mod ambience;
