@@ -126,6 +126,7 @@ fn model(selection: &Selection, inputs: &Inputs) -> Model {
             speed_exponent: fit.exponent.map(estimate),
         },
         candidates: selection.candidates.clone(),
+        unfitted: selection.unfitted.clone(),
         alike: selection.alike,
     }
 }

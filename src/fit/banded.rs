@@ -99,33 +99,6 @@ impl Factors {
     }
 }
 
-/// ln of the determinants of N matrices that differ in their main diagonals alone; NaN for one that is not positive definite.
-///
-/// The pivots of one matrix wait for one another: side by side they wait together.
-pub(super) fn ln_determinants<const N: usize>(
-    rows: impl ExactSizeIterator<Item = ([f64; N], [f64; 2])>,
-) -> [f64; N] {
-    let (mut before, mut before_it, mut one_before) = ([0.0; N], [0.0; N], [0.0; N]);
-    let (mut product, mut ln) = ([1.0; N], [0.0; N]);
-    let last = rows.len().saturating_sub(1);
-    for (i, (main, [first, second])) in rows.enumerate() {
-        for k in 0..N {
-            let below = first - second * one_before[k];
-            let one = below * before[k];
-            let pivot = main[k] - second * before_it[k] * second - one * below;
-            (before_it[k], before[k], one_before[k]) = (before[k], 1.0 / pivot, one);
-            product[k] *= pivot;
-        }
-        if (i + 1) % PIVOTS_AT_ONCE == 0 || i == last {
-            for (ln, product) in ln.iter_mut().zip(&mut product) {
-                *ln += product.ln();
-                *product = 1.0;
-            }
-        }
-    }
-    ln
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -169,24 +142,5 @@ mod tests {
             rows: vec![[1.0, 0.0, 0.0], [1.0, 2.0, 0.0]],
         };
         assert!(Factors::of(matrix.rows.iter().copied()).is_none());
-    }
-
-    #[test]
-    fn determinants_side_by_side_are_those_one_by_one() {
-        let rows = [[4.0, 0.0, 0.0], [5.0, 1.0, 0.0], [6.0, -0.5, 0.3]];
-        let added = [0.0, 2.5];
-        let together = ln_determinants(
-            rows.iter()
-                .map(|[main, first, second]| (added.map(|a| main + a), [*first, *second])),
-        );
-        for (added, ln) in added.iter().zip(together) {
-            let rows = rows
-                .iter()
-                .map(|[main, first, second]| [main + added, *first, *second]);
-            let alone = Factors::of(rows).unwrap().ln_determinant();
-            assert!((ln - alone).abs() < 1e-12);
-        }
-        let [ln] = ln_determinants([([-1.0], [0.0; 2])].into_iter());
-        assert!(ln.is_nan());
     }
 }

@@ -1,19 +1,21 @@
 //! The observation of ln e by each bounce, linearised in the times and in the parameters of the model.
 
+use super::bend::{BENDS, Bends};
 use super::trial_law::{self, Flight, Loss, TrialLaw};
 use crate::impact::Impact;
 use crate::physics::priors::Known;
 
-/// A model of the intervals: constant e, and what is added to it.
+/// A model of the intervals: constant e, and what is added to it. What is not has the value 0.
 ///
 /// # Formula
 /// ```text
-/// D_i = T_i + C,   ln e(v_j) = ln u(T_j) − ln w(T_{j−1}) = θ − p·ln(v_j/v̄) + σ_e·η_j
+/// D_i = T_i + C,   ln e(v_j) = ln u(T_j) − ln w(T_{j−1}) = θ − p·ln(v_j/v̄) + A·f(v_j) + σ_e·η_j
 /// T = (atan a + arsinh a)/√K,   u ∝ a,   w ∝ a/√(1 + a²),   K = g²/v_t²
 /// ```
 /// `D_i` are the intervals between impacts, C is the time in contact (s), u and w are the speeds at which the ball
-/// leaves and arrives, K is the drag of the air (s⁻²; 1.4 for a ping-pong ball), p is how e falls with speed, v̄ is the
-/// geometric mean of the impact speeds.
+/// leaves and arrives, K is the drag of the air (s⁻²; 1.4 for a ping-pong ball), p is how e falls with speed, f is a
+/// smooth departure of unit size ([`Bends`]) that is 0 at v̄, a speed of reference: the geometric mean of the impact speeds
+/// where none is given.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Terms {
     /// C in seconds.
@@ -22,6 +24,8 @@ pub struct Terms {
     pub drag: Option<Known>,
     /// p.
     pub speed: Option<Known>,
+    /// A.
+    pub bend: Option<f64>,
     /// Dependence of contact and e on the impact speed.
     pub law: ImpactLaw,
 }
@@ -47,8 +51,13 @@ pub(super) struct Values {
     pub ln_fast_restitution: f64,
 }
 
-/// Parameters of the largest model: θ, C, K and p.
-pub(super) const MOST_PARAMETERS: usize = 4;
+/// Places of the parameters: θ, C, K, p, and the weights of the departure's functions.
+pub(super) const CONTACT: usize = 1;
+pub(super) const DRAG: usize = 2;
+pub(super) const SPEED: usize = 3;
+pub(super) const FIRST_BEND: usize = 4;
+/// Their number.
+pub(super) const PARAMETERS: usize = FIRST_BEND + BENDS;
 
 /// The bounces around a trial of times and parameters.
 #[derive(Debug, Clone)]
@@ -57,34 +66,34 @@ pub(super) struct Bounces {
     pub ln_e: Vec<f64>,
     /// Its derivatives by the time of the impact before, its own and the one after.
     pub slopes: Vec<[f64; 3]>,
-    /// Number of fitted parameters.
-    pub parameters: usize,
-    /// Derivative of ln e of each bounce by each fitted parameter; 1 for θ first, 0 past the last.
-    pub design: Vec<[f64; MOST_PARAMETERS]>,
+    /// Derivative of ln e of each bounce by each parameter, at the parameter's place.
+    pub design: Vec<[f64; PARAMETERS]>,
     /// ln of the derivative of ln e by the flight after each bounce, …
     pub ln_stretch: Vec<f64>,
-    /// … and its derivative by each fitted parameter.
-    pub stretching: Vec<[f64; MOST_PARAMETERS]>,
-    /// `ln(e/e₀)` by gravity in contact at the mean speed: θ is ln e there, and e₀ that of fast impacts.
+    /// … and its derivative by C and K.
+    pub stretching: Vec<[f64; 2]>,
+    /// `ln(e/e₀)` by gravity in contact at the speed of reference: θ is ln e there, and e₀ that of fast impacts.
     pub middle_loss: f64,
-    /// Mean ln of the speed of arrival, as the length of its flight without air in seconds: `ln(2v/g)`.
-    pub mean_ln_speed: f64,
+    /// ln of the speed of reference, as the length of its flight without air in seconds: `ln(2v/g)`.
+    pub reference: f64,
 }
 
 impl Bounces {
-    /// Linearised around trial times. None if a flight is not longer than the contact.
+    /// Linearised around trial times, by a reference of ln speed or else their own mean. None if a flight is not longer than
+    /// the contact.
     pub(super) fn around(
         trial_s: &[f64],
         observed: &[Impact],
-        terms: &Terms,
+        law: ImpactLaw,
         values: Values,
+        reference: Option<f64>,
     ) -> Option<Self> {
-        let law = TrialLaw::of(trial_s, terms, values)?;
+        let law = TrialLaw::of(trial_s, law, values)?;
         let flights = trial_law::flights(trial_s, values, &law)?;
         let arriving = &flights[..flights.len() - 1];
-        let speeds: Vec<f64> = arriving.iter().map(|f| f.ends.ln_landing).collect();
-        let mean_ln_speed = trial_law::mean(speeds.iter().copied());
-        let (lost, middle_loss) = law.losses(values, &speeds, mean_ln_speed);
+        let ln_speeds: Vec<f64> = arriving.iter().map(|f| f.ends.ln_landing).collect();
+        let reference = reference.unwrap_or_else(|| trial_law::mean(ln_speeds.iter().copied()));
+        let (lost, middle_loss) = law.losses(values, &ln_speeds, reference);
         let ln_restitution = values.ln_fast_restitution + middle_loss;
         let off_s: Vec<f64> = observed
             .iter()
@@ -109,70 +118,41 @@ impl Bounces {
                 observed - lost.ln + lost.by_restitution * ln_restitution
             })
             .collect();
+        let bends = Bends::over(&ln_speeds, reference);
         let (design, stretching) = pairs()
-            .zip(&speeds)
-            .map(|(((before, after), lost), speed)| {
-                terms.dependence(before, after, lost, mean_ln_speed - speed)
+            .zip(&ln_speeds)
+            .map(|(((before, after), lost), ln_speed)| {
+                let mut design = [0.0; PARAMETERS];
+                let by_flight = dependence(before, after, lost);
+                design[..SPEED].copy_from_slice(&by_flight.0);
+                design[SPEED] = reference - ln_speed;
+                design[FIRST_BEND..].copy_from_slice(&bends.at(*ln_speed));
+                (design, by_flight.1)
             })
             .unzip();
         Some(Self {
             ln_e,
             ln_stretch: slopes.iter().map(|s| s[2].ln()).collect(),
             slopes,
-            parameters: 1 + terms.count(),
             design,
             stretching,
             middle_loss,
-            mean_ln_speed,
+            reference,
         })
     }
 }
 
-impl Terms {
-    /// Numbers of C and K among the fitted parameters, θ being number 0.
-    pub(super) fn places(&self) -> [Option<usize>; 2] {
-        let contact = self.contact.map(|_| 1);
-        let drag = self.drag.map(|_| 1 + usize::from(contact.is_some()));
-        [contact, drag]
-    }
-
-    /// Number of parameters fitted beside θ.
-    pub(super) fn count(&self) -> usize {
-        let terms = [self.contact, self.drag, self.speed];
-        terms.iter().filter(|t| t.is_some()).count()
-    }
-
-    /// Derivatives by each fitted parameter of ln e of a bounce, and of ln of its derivative by the flight after it.
-    fn dependence(
-        &self,
-        before: &Flight,
-        after: &Flight,
-        lost: &Loss,
-        slower: f64,
-    ) -> ([f64; MOST_PARAMETERS], [f64; MOST_PARAMETERS]) {
-        let (shorter_before, shorter_after) = (before.shorter, after.shorter);
-        let (before, after) = (&before.ends, &after.ends);
-        // A longer contact means shorter flights: D stays, T = D − C.
-        let contact = (
-            after.leaving_slope * shorter_after - before.landing_slope * shorter_before
-                + lost.by_contact,
-            after.leaving_slope * shorter_after,
-        );
+/// Derivatives by θ, C and K of ln e of a bounce, and by C and K of ln of its derivative by the flight after it.
+fn dependence(before: &Flight, after: &Flight, lost: &Loss) -> ([f64; 3], [f64; 2]) {
+    let (shorter_before, shorter_after) = (before.shorter, after.shorter);
+    let (before, after) = (&before.ends, &after.ends);
+    // A longer contact means shorter flights: D stays, T = D − C.
+    let stretching = after.leaving_slope * shorter_after;
+    let contact = stretching - before.landing_slope * shorter_before + lost.by_contact;
+    let drag = before.landing_by_drag - after.leaving_by_drag;
+    (
+        [1.0 + lost.by_restitution, contact, drag],
         // τ·d(ln a)/dτ = 1 + K·T²/8 + …, and ln u(T) = ln T + K·T²/16 + …
-        let drag = (
-            before.landing_by_drag - after.leaving_by_drag,
-            2.0 * after.leaving_by_drag,
-        );
-        let fitted = [
-            Some((1.0 + lost.by_restitution, 0.0)),
-            self.contact.map(|_| contact),
-            self.drag.map(|_| drag),
-            self.speed.map(|_| (slower, 0.0)),
-        ];
-        let (mut design, mut stretching) = ([0.0; MOST_PARAMETERS], [0.0; MOST_PARAMETERS]);
-        for (i, term) in fitted.into_iter().flatten().enumerate() {
-            (design[i], stretching[i]) = term;
-        }
-        (design, stretching)
-    }
+        [stretching, 2.0 * after.leaving_by_drag],
+    )
 }

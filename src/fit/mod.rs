@@ -4,22 +4,31 @@
 //! and total time by the paper's equation (25).
 
 mod banded;
+mod bend;
 pub mod bounces;
+mod fitted;
 pub mod flights;
+mod grid;
+mod hypotheses;
 pub mod irregular;
 mod least_squares;
+mod mixture;
 pub mod model;
 pub mod model_kind;
 pub mod model_selection;
 mod noise;
 pub mod outlier;
 mod posterior;
+mod prior;
 pub mod random_effects;
+mod solution;
 mod state;
 pub mod total_time;
 mod trial_law;
+mod unfitted;
 
 pub use model_kind::{BallParameters, ModelKind};
+pub use unfitted::Unfitted;
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};

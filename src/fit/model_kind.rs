@@ -3,7 +3,6 @@
 //! A new kind stands here and among the candidates of [`model_selection`](super::model_selection), and where e or contact
 //! depend on the speed in a new way also in `physics::RestitutionLaw` and, for the fit, in `trial_law`.
 
-use super::bounces::ImpactLaw;
 use crate::Error;
 use crate::physics::{BallModel, Bounce, FlightLaw, LinearContact, Restitution, RestitutionLaw};
 use crate::words::words;
@@ -32,6 +31,8 @@ words! {
         LinearDrag = "linear+drag",
         /// Contact and a power of the impact speed.
         ContactSpeed = "contact+speed",
+        /// Contact, drag, and any smooth course of e with the speed.
+        Flexible = "flexible",
     }
 }
 
@@ -56,7 +57,10 @@ impl ModelKind {
     /// Whether it fits a contact time.
     #[must_use]
     pub const fn has_contact(self) -> bool {
-        matches!(self, Self::Contact | Self::ContactDrag | Self::ContactSpeed) || self.is_linear()
+        matches!(
+            self,
+            Self::Contact | Self::ContactDrag | Self::ContactSpeed | Self::Flexible
+        ) || self.is_linear()
     }
 
     /// Whether it is a linear ball with gravity in contact.
@@ -68,28 +72,22 @@ impl ModelKind {
     /// Whether it fits the drag of the air.
     #[must_use]
     pub const fn has_drag(self) -> bool {
-        matches!(self, Self::Drag | Self::ContactDrag | Self::LinearDrag)
+        matches!(
+            self,
+            Self::Drag | Self::ContactDrag | Self::LinearDrag | Self::Flexible
+        )
     }
 
-    /// Whether it fits the power of the impact speed that e goes with.
+    /// Whether it fits the power of the impact speed that e goes with, or comes nearest to.
     #[must_use]
     pub const fn has_exponent(self) -> bool {
-        matches!(self, Self::Speed | Self::ContactSpeed)
+        matches!(self, Self::Speed | Self::ContactSpeed | Self::Flexible)
     }
 
     /// Whether its e depends on the impact speed other than by gravity in contact.
     #[must_use]
     pub const fn is_by_speed(self) -> bool {
         self.has_exponent() || matches!(self, Self::Viscoelastic)
-    }
-
-    /// Dependence of contact and e on the impact speed that follows from them.
-    pub(super) const fn law(self) -> ImpactLaw {
-        match self {
-            Self::Linear | Self::LinearDrag => ImpactLaw::Linear,
-            Self::Viscoelastic => ImpactLaw::Viscoelastic,
-            _ => ImpactLaw::Alike,
-        }
     }
 
     /// The ball that this model makes of its parameters, exactly. An e of 1 or more is taken to be just below.

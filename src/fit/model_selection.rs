@@ -1,13 +1,18 @@
 //! Model selection: constant e, and the terms that the recording supports or the user knows. The candidates are models of the
 //! intervals, compared by their evidence.
 
-use super::bounces::Terms;
-use super::model::{Fit, Fitted, Parameter, Rival};
+use super::bounces::{ImpactLaw, Terms};
+use super::fitted::{Fitted, settle};
+use super::hypotheses::{self, Hypothesis};
+use super::model::{FEWEST, Fit, Parameter};
 use super::model_kind::{BallParameters, ModelKind};
+use super::outlier::{self, Outliers};
+use super::state::State;
+use super::unfitted::Unfitted;
 use crate::Error;
 use crate::impact::Impact;
 use crate::physics::BallModel;
-use crate::physics::priors::{CONTACT_S, DRAG_PER_S2, Known, LITTLE_DRAG_PER_S2, SPEED_EXPONENT};
+use crate::physics::priors::{Known, LITTLE_CONTACT_S, LITTLE_DRAG_PER_S2};
 use crate::words::words;
 
 words! {
@@ -30,6 +35,8 @@ words! {
         Speed = "speed",
         /// Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed.
         Viscoelastic = "viscoelastic",
+        /// Contact, drag, and any smooth course of e with the speed.
+        Flexible = "flexible",
     }
 }
 
@@ -43,7 +50,7 @@ pub struct Inputs {
 }
 
 /// From the simplest up. A model is compared with those that stand before it.
-const CANDIDATES: [ModelKind; 9] = [
+const CANDIDATES: [ModelKind; 10] = [
     ModelKind::Constant,
     ModelKind::Viscoelastic,
     ModelKind::Contact,
@@ -53,6 +60,7 @@ const CANDIDATES: [ModelKind; 9] = [
     ModelKind::ContactDrag,
     ModelKind::LinearDrag,
     ModelKind::ContactSpeed,
+    ModelKind::Flexible,
 ];
 
 /// A dearer candidate is selected where its evidence is greater by this many nats for each parameter: odds of 7 to 1.
@@ -72,6 +80,16 @@ pub struct Candidate {
     pub restitution: f64,
 }
 
+/// A model that could not be fitted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[non_exhaustive]
+pub struct Unfit {
+    /// Which.
+    pub model: ModelKind,
+    /// Why.
+    pub reason: Unfitted,
+}
+
 /// The model selected and the candidates compared.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Selection {
@@ -81,16 +99,18 @@ pub struct Selection {
     pub fit: Fit,
     /// All that were fitted.
     pub candidates: Vec<Candidate>,
+    /// Those that could not be fitted.
+    pub unfitted: Vec<Unfit>,
     /// Another model, with something else in place of what was selected, that explains the drop as well.
     pub alike: Option<ModelKind>,
 }
 
-/// Fits the model chosen, or selects the one that the recording supports.
+/// Fits all models, or those of the kind chosen; e is that by all of them, and the one that describes the drop is selected.
 ///
 /// Evidence is the likelihood of the times with all parameters and the sizes of the noises integrated out over what is
-/// known of balls at large, so a parameter that buys nothing costs. The bounces called odd, by their numbers from 0 with an impact
-/// before and after each, have no say. The error of e counts in that another model may be
-/// the right one. None for fewer than three impacts.
+/// known of balls at large, so a parameter that buys nothing costs. All models have the same outliers, which are found
+/// under the likeliest, and state e at the same speed. The bounces called odd, by their numbers from 0 with an impact
+/// before and after each, have no say. None for fewer than three impacts.
 #[must_use]
 pub fn select(
     impacts: &[Impact],
@@ -98,68 +118,239 @@ pub fn select(
     inputs: &Inputs,
     choice: Choice,
 ) -> Option<Selection> {
+    fit_laws(impacts, odd, &laws(inputs, choice))
+}
+
+/// The models of each law of the impacts.
+fn laws(inputs: &Inputs, choice: Choice) -> Vec<Vec<Hypothesis>> {
+    let wanted = wanted(inputs, choice);
+    let laws: &[ImpactLaw] = match choice {
+        Choice::Viscoelastic => &[ImpactLaw::Viscoelastic],
+        _ => &[ImpactLaw::Alike, ImpactLaw::Linear],
+    };
+    let models = laws.iter().map(|&law| {
+        let mut models = hypotheses::of(law, inputs);
+        models.retain(|m| wanted.is_none_or(|wanted| m.kind == wanted));
+        models
+    });
+    models.filter(|models| !models.is_empty()).collect()
+}
+
+/// The kind of model that is forced.
+const fn wanted(inputs: &Inputs, choice: Choice) -> Option<ModelKind> {
     let (contact, drag) = (inputs.contact_s.is_some(), inputs.drag_per_s2.is_some());
-    let wanted = match choice {
+    match choice {
         Choice::Auto => None,
         Choice::Contact if !contact => Some(ModelKind::Contact),
         Choice::Linear => Some(ModelKind::Linear),
         Choice::Drag if !drag => Some(ModelKind::Drag),
         Choice::Speed => Some(ModelKind::Speed),
         Choice::Viscoelastic => Some(ModelKind::Viscoelastic),
+        Choice::Flexible => Some(ModelKind::Flexible),
         // Known terms are in every candidate.
         Choice::Constant | Choice::Contact | Choice::Drag => Some(ModelKind::Constant),
-    };
-    let fits: Vec<(ModelKind, Fitted<'_>)> = CANDIDATES
-        .into_iter()
-        .filter(|&r| wanted.is_none_or(|wanted| r == wanted))
-        .filter(|&r| is_fitted(r, inputs))
-        .filter_map(|r| Some((r, Fitted::new(impacts, odd, &terms(r, inputs))?)))
-        .collect();
-    let lowest = fits.first()?.1.ln_evidence();
-    let gain = |i: usize| fits[i].1.ln_evidence() - lowest;
-    let mut best = 0;
-    for (i, (kind, _)) in fits.iter().enumerate() {
-        // Two parameters have to earn twice as much as one.
-        let dearer = parameters(*kind, inputs) - parameters(fits[best].0, inputs);
-        if gain(i) > gain(best) + WORTH * dearer.max(0.0) {
-            best = i;
-        }
     }
-    let candidates: Vec<Candidate> = fits
-        .iter()
-        .enumerate()
-        .map(|(i, (kind, fit))| Candidate {
-            model: *kind,
-            gain_nats: gain(i),
-            restitution: fit.ln_restitution().exp(),
-        })
+}
+
+/// Fits the models of these laws.
+pub(super) fn fit_laws(
+    impacts: &[Impact],
+    odd: &[usize],
+    laws: &[Vec<Hypothesis>],
+) -> Option<Selection> {
+    if impacts.len() < FEWEST {
+        return None;
+    }
+    let Fits {
+        fits,
+        failed,
+        outliers,
+    } = Fits::of(impacts, odd, laws)?;
+    let lost: f64 = failed.iter().map(|(law, _)| odds(&laws[*law])).sum();
+    let fitted: f64 = fits.iter().map(|f| odds(&f.hypotheses)).sum();
+    let found: Vec<Found> = CANDIDATES
+        .into_iter()
+        .filter_map(|kind| Found::of(kind, &fits))
         .collect();
-    let selected = fits[best].0;
-    let rival = |kind: ModelKind| {
-        kind.has_drag() != selected.has_drag() && kind.is_by_speed() != selected.is_by_speed()
+    let best = Found::described(&found)?;
+    let (selected, lowest) = (best.kind, found.first()?.ln_evidence);
+    let candidates = found.iter().map(|f| Candidate {
+        model: f.kind,
+        gain_nats: f.ln_evidence - lowest,
+        restitution: f.ln_restitution.exp(),
+    });
+    let rival = |f: &&Found| {
+        let (kind, gain) = (f.kind, f.ln_evidence - best.ln_evidence);
+        kind.has_drag() != selected.has_drag()
+            && kind.is_by_speed() != selected.is_by_speed()
+            && gain.abs() < ALIKE
     };
-    let alike = (0..fits.len())
-        .find(|&i| rival(fits[i].0) && (gain(i) - gain(best)).abs() < ALIKE)
-        .map(|i| fits[i].0);
-    // A candidate is not preferred by less than it costs, so the one selected may have the lower evidence. What is much less likely
-    // is discarded (Occam's window): far off, it would widen the standard error and not the interval.
-    let highest = (0..fits.len()).map(gain).fold(f64::NEG_INFINITY, f64::max);
-    let rivals: Vec<Rival> = (0..fits.len())
-        .filter(|&i| i == best || gain(i) > highest - ALIKE)
-        .filter_map(|i| fits[i].1.rival((gain(i) - gain(best)).exp()))
-        .collect();
-    let (_, fit) = fits.into_iter().nth(best)?;
-    let mut fit = fit.summary().among(&rivals);
-    if !selected.has_drag() && inputs.drag_per_s2.is_none() {
-        // The little drag of the prior is no result of the data.
+    let mut fit = Fit::of(&fits, (best.law, selected), lost / fitted, outliers)?;
+    if !selected.has_drag() && !is_given(&fits, |t| t.drag, LITTLE_DRAG_PER_S2) {
+        // The little drag of the prior is no result of the data, …
         fit.drag_per_s2 = None;
+    }
+    if !selected.has_contact() && !is_given(&fits, |t| t.contact, LITTLE_CONTACT_S) {
+        // … nor is the little contact.
+        fit.contact_s = None;
     }
     Some(Selection {
         selected,
+        candidates: candidates.collect(),
+        unfitted: unfit(laws, &failed, &found),
+        alike: found.iter().find(rival).map(|f| f.kind),
         fit,
-        candidates,
-        alike,
     })
+}
+
+/// Fits one model alone.
+#[cfg(test)]
+pub(super) fn fit(impacts: &[Impact], terms: &Terms) -> Option<Fit> {
+    let alone = Hypothesis {
+        kind: ModelKind::Constant,
+        ln_odds: 0.0,
+        terms: *terms,
+    };
+    Some(fit_laws(impacts, &[], &[vec![alone]])?.fit)
+}
+
+/// Whether a term is known, and not the little that every ball has.
+fn is_given(fits: &[Fitted<'_>], term: fn(&Terms) -> Option<Known>, little: Known) -> bool {
+    let mut models = fits.iter().flat_map(|f| &f.hypotheses);
+    models.all(|m| term(&m.terms).is_some_and(|t| t != little))
+}
+
+fn odds(models: &[Hypothesis]) -> f64 {
+    models.iter().map(|m| m.ln_odds.exp()).sum()
+}
+
+/// The laws fitted, and those that could not be, by their numbers.
+struct Fits<'a> {
+    fits: Vec<Fitted<'a>>,
+    failed: Vec<(usize, Unfitted)>,
+    outliers: Outliers,
+}
+
+impl<'a> Fits<'a> {
+    /// All laws under one set of outliers and one speed of reference: those of the likeliest model.
+    fn of(impacts: &'a [Impact], odd: &[usize], laws: &[Vec<Hypothesis>]) -> Option<Self> {
+        let mut failed = Vec::new();
+        let mut settled = Vec::new();
+        for (number, models) in laws.iter().enumerate() {
+            let mut state = State::new(impacts, odd, &models.first()?.terms);
+            match settle(&mut state, models) {
+                Ok(ln) => settled.push((number, ln, state)),
+                Err(why) => failed.push((number, why)),
+            }
+        }
+        let best = (0..settled.len()).max_by(|&a, &b| settled[a].1.total_cmp(&settled[b].1))?;
+        let outliers = outlier::find(&mut settled[best].2)?;
+        let leader = settled[best].2.clone();
+        let reference = leader.bounces()?.reference;
+        let mut fits = Vec::new();
+        for (number, _, mut state) in settled {
+            state.reference = Some(reference);
+            let resettled = if outliers == Outliers::default() {
+                Ok(0.0)
+            } else {
+                state.doubt_like(&leader);
+                settle(&mut state, &laws[number])
+            };
+            match resettled.and_then(|_| Fitted::about(state, &laws[number])) {
+                Ok(fit) => fits.push(fit),
+                Err(why) => failed.push((number, why)),
+            }
+        }
+        Some(Self {
+            fits,
+            failed,
+            outliers,
+        })
+    }
+}
+
+/// What all models of a kind make of a drop.
+#[derive(Debug, Clone, Copy)]
+struct Found {
+    kind: ModelKind,
+    /// Number of the law under which it is likeliest.
+    law: usize,
+    /// ln of its evidence, and its mean ln e.
+    ln_evidence: f64,
+    ln_restitution: f64,
+    /// Whether it has a share in the posterior.
+    is_likely: bool,
+}
+
+impl Found {
+    /// The evidence of a kind is the mean over its models by their odds. One that has no share in the posterior is known by its
+    /// peaks alone, against that of the likeliest model.
+    fn of(kind: ModelKind, fits: &[Fitted<'_>]) -> Option<Self> {
+        let by_law = fits.iter().enumerate().filter_map(|(law, fit)| {
+            let models = fit.hypotheses.iter().enumerate();
+            let own: Vec<usize> = models
+                .filter(|(_, h)| h.kind == kind)
+                .map(|(i, _)| i)
+                .collect();
+            let ln_odds = own
+                .iter()
+                .map(|&i| fit.hypotheses[i].ln_odds.exp())
+                .sum::<f64>()
+                .ln();
+            let posterior = &fit.posterior;
+            if let Some(given) = posterior.given(|p| own.contains(&p.model)) {
+                let ln = given.ln_evidence - ln_odds;
+                return Some((law, ln, given.moments(0).0, true));
+            }
+            let peaks = || posterior.peaks.iter().flatten();
+            let top = peaks().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
+            let own = own.iter().filter_map(|&i| posterior.peaks[i]);
+            let (peak, ln_e) = own.max_by(|a, b| a.0.total_cmp(&b.0))?;
+            Some((
+                law,
+                posterior.ln_evidence + peak - top - ln_odds,
+                ln_e,
+                false,
+            ))
+        });
+        let (law, ln_evidence, ln_restitution, is_likely) =
+            by_law.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        Some(Self {
+            kind,
+            law,
+            ln_evidence,
+            ln_restitution,
+            is_likely,
+        })
+    }
+
+    /// The one that describes the drop: a dearer one has to explain more.
+    fn described(found: &[Self]) -> Option<Self> {
+        let mut likely = found.iter().filter(|f| f.is_likely);
+        let mut best = *likely.next()?;
+        for other in likely {
+            // Two parameters have to earn twice as much as one.
+            let dearer = parameters(other.kind) - parameters(best.kind);
+            if other.ln_evidence > best.ln_evidence + WORTH * dearer.max(0.0) {
+                best = *other;
+            }
+        }
+        Some(best)
+    }
+}
+
+/// The kinds that could not be fitted under any law.
+fn unfit(laws: &[Vec<Hypothesis>], failed: &[(usize, Unfitted)], found: &[Found]) -> Vec<Unfit> {
+    let lacking = CANDIDATES
+        .into_iter()
+        .filter(|&kind| found.iter().all(|f| f.kind != kind));
+    lacking
+        .filter_map(|model| {
+            let of = |failed: &&(usize, Unfitted)| laws[failed.0].iter().any(|m| m.kind == model);
+            let (_, reason) = *failed.iter().find(of)?;
+            Some(Unfit { model, reason })
+        })
+        .collect()
 }
 
 impl Selection {
@@ -180,32 +371,10 @@ impl Selection {
     }
 }
 
-/// Whether a model is a candidate: a term whose value is known is part of every model and makes none of its own.
-fn is_fitted(kind: ModelKind, inputs: &Inputs) -> bool {
-    // Gravity in contact comes with a contact, known or not.
-    let contact_known = kind.has_contact() && !kind.is_linear() && inputs.contact_s.is_some();
-    !(contact_known || kind.has_drag() && inputs.drag_per_s2.is_some())
-}
-
-fn terms(kind: ModelKind, inputs: &Inputs) -> Terms {
-    Terms {
-        contact: inputs
-            .contact_s
-            .or_else(|| kind.has_contact().then_some(CONTACT_S)),
-        drag: Some(inputs.drag_per_s2.unwrap_or(if kind.has_drag() {
-            DRAG_PER_S2
-        } else {
-            LITTLE_DRAG_PER_S2
-        })),
-        speed: kind.has_exponent().then_some(SPEED_EXPONENT),
-        law: kind.law(),
-    }
-}
-
-/// Number of parameters that a model fits; an e that goes with speed counts as one, also where a law fixes its course.
-fn parameters(kind: ModelKind, inputs: &Inputs) -> f64 {
-    let contact = kind.has_contact() && inputs.contact_s.is_none();
-    [contact, kind.has_drag(), kind.is_by_speed()]
+/// Number of parameters that a kind of model has beside e; an e that goes with speed counts as one, also where a law fixes its
+/// course.
+fn parameters(kind: ModelKind) -> f64 {
+    [kind.has_contact(), kind.has_drag(), kind.is_by_speed()]
         .iter()
         .filter(|on| **on)
         .map(|_| 1.0)

@@ -1,6 +1,6 @@
 //! Two kinds of noise: each bounce scatters, and each time is uncertain.
 
-use super::banded::{Banded, Factors, ln_determinants};
+use super::banded::{Banded, Factors};
 use super::bounces::Bounces;
 
 /// The covariance of ln e from bounce to bounce, before the noises' sizes are known.
@@ -84,28 +84,6 @@ impl Noise {
         Factors::of(self.rows().map(|([main, first, second], w, f)| {
             [scale * main + own * w + f, scale * first, scale * second]
         }))
-    }
-
-    /// Fisher's information on `ln σ_e²`, up to a factor of 2.
-    ///
-    /// # Formula
-    /// `Σ (σ²/(σ² + λᵢ))²`, λ the eigenvalues of the timing part (for equal w): the effective number of bounces whose own noise
-    /// is seen. With `L = ln|Σ|` and `u = ln σ_e²` it is `L′ − L″`, taken by differences.
-    pub(super) fn information(&self, sizes: Sizes) -> Option<f64> {
-        const STEP: f64 = 0.2;
-        let scale = sizes.timing.powi(2);
-        let own = [-STEP, 0.0, STEP].map(|step: f64| sizes.bounce.powi(2) * step.exp());
-        let [less, same, more] =
-            ln_determinants(self.rows().map(|([main, first, second], w, f)| {
-                let main = own.map(|own| scale * main + own * w + f);
-                (main, [scale * first, scale * second])
-            }));
-        let first = (more - less) / (2.0 * STEP);
-        let second = (more - 2.0 * same + less) / (STEP * STEP);
-        let information = first - second;
-        information
-            .is_finite()
-            .then_some(information.max(f64::MIN_POSITIVE))
     }
 
     /// `aᵀ·A·diag(s²)·Aᵀ·a` and `aᵀ·diag(w)·a`: variances of a weighted sum of ln e by noises of unit size.

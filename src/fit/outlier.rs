@@ -2,7 +2,7 @@
 
 use super::least_squares::solve;
 use super::noise::Sizes;
-use super::posterior::maximum_likelihood;
+use super::posterior::likeliest;
 use super::state::{State, pulls, time_pull};
 use crate::statistics::{MAD_TO_STD, upper_median};
 
@@ -57,7 +57,7 @@ pub(super) fn find(state: &mut State<'_>) -> Option<Outliers> {
             outliers.times.push(time);
             *state = with_time;
         }
-        state.converge()?;
+        state.converge().ok()?;
     }
     outliers.bounces.sort_unstable();
     outliers.times.sort_unstable();
@@ -102,7 +102,7 @@ fn masked_outliers(state: &mut State<'_>) -> Option<Vec<usize>> {
         return Some(Vec::new());
     }
     *state = without;
-    state.converge()?;
+    state.converge().ok()?;
     Some(kept)
 }
 
@@ -150,7 +150,7 @@ const FAR: f64 = 5.0;
 fn suspects(state: &State<'_>) -> Option<(f64, usize, usize)> {
     let bounces = state.bounces()?;
     let noise = state.noise(&bounces);
-    let (sizes, solution) = maximum_likelihood(&bounces, &noise, &state.priors())?;
+    let (sizes, solution) = likeliest(&bounces, &noise, &state.priors())?;
     let pulls = pulls(&bounces, &noise, sizes, &solution)?;
     let farthest = |off: &[f64]| (0..off.len()).max_by(|&a, &b| off[a].total_cmp(&off[b]));
     let by_bounce: Vec<f64> = pulls
@@ -179,7 +179,7 @@ fn likelihood(state: &State<'_>) -> Option<f64> {
     let bounces = state.bounces()?;
     let noise = state.noise(&bounces);
     Some(
-        maximum_likelihood(&bounces, &noise, &state.priors())?
+        likeliest(&bounces, &noise, &state.priors())?
             .1
             .ln_likelihood,
     )

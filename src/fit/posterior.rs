@@ -1,13 +1,16 @@
-//! The posterior of ln e, the sizes of the noises integrated out.
+//! The posterior of ln e, the sizes of the noises and the models integrated out.
 
 use statrs::distribution::{ContinuousCDF, Normal};
 
-use super::bounces::Bounces;
-use super::least_squares::{Prior, Solution, solve};
+use super::bounces::{Bounces, FIRST_BEND};
+use super::grid::Grid;
+use super::least_squares::{NormalEquations, solve};
 use super::noise::{Noise, Sizes};
-use crate::physics::priors::BOUNCE_STD;
+use super::prior::Priors;
+use super::solution::Solution;
+use crate::physics::priors::{BOUNCE_STD, BOUNCE_STD_AT_LARGE, Known};
 use crate::statistics::bisected;
-use crate::units::real;
+use crate::units::whole;
 
 /// Steps over the range of `σ_e` in the search for its likelihood: a factor of four each, twice narrowed.
 const COARSE: usize = 10;
@@ -17,6 +20,8 @@ const FINE_STEP: f64 = 0.5;
 const FEWEST_STEPS: usize = 9;
 /// Values this many nats below the best are left out.
 const NEGLIGIBLE: f64 = 12.0;
+/// Models this many nats below the best at every size of the noises are left out.
+const UNLIKELY: f64 = 9.0;
 /// Prior standard deviation of ln φ: the stated errors of the times are right within a quarter.
 const TIMING_SCALE_STD: f64 = 0.25;
 /// Nodes and weights of Gauss and Hermite's rule for a standard normal variable: ±√3 and 0.
@@ -27,41 +32,58 @@ const HERMITE: [(f64, f64); 3] = [
 ];
 /// ln φ either side of 0 at which its likelihood is evaluated beforehand.
 const LOOK: f64 = 0.15;
+/// Half the range in which the ends of an interval are sought, in standard deviations: by Chebyshev's inequality one in 64
+/// lies beyond at the most, less than the one in forty beyond an end.
+pub(super) const RANGE_STDS: f64 = 8.0;
+/// That range halved this often leaves a ten-thousandth of a standard deviation.
+pub(super) const HALVINGS: usize = 17;
+/// Place of most balls in the range of `ln σ_e`, as a share of it: half a per cent.
+const COMMON: f64 = 0.67;
 
-/// Mixture of the solutions at all sizes of the noises, each by its share of the evidence.
+/// A model of one law of the impacts: ln of its odds beforehand, and the priors of its parameters.
+#[derive(Debug, Clone)]
+pub(super) struct Model {
+    pub ln_odds: f64,
+    pub priors: Priors,
+}
+
+/// Mixture of the solutions of all models at all sizes of the noises, each by its share of the evidence.
 #[derive(Debug)]
 pub(super) struct Posterior {
-    parts: Vec<(f64, Sizes, Solution)>,
-    /// The least value of each parameter.
-    least: Vec<f64>,
-    /// ln of the evidence for the model.
+    pub parts: Vec<Part>,
+    /// ln of the evidence, the odds of the models included.
     pub ln_evidence: f64,
+    /// Of each model ln of its density, its odds included, and ln e, where the scatter is likeliest; none where it has no
+    /// solution.
+    pub peaks: Vec<Option<(f64, f64)>>,
+}
+
+/// The solution of one model at one size of each noise.
+#[derive(Debug, Clone)]
+pub(super) struct Part {
+    pub weight: f64,
+    pub sizes: Sizes,
+    /// The model's number.
+    pub model: usize,
+    pub solution: Solution,
 }
 
 impl Posterior {
-    /// Integrates over both sizes. None if no size of the noises has a solution.
+    /// Integrates over models and both sizes. None if no size of the noises has a solution.
     ///
     /// # Formula
     /// ```text
-    /// p(θ) ∝ ∬ L(σ_e, φ)·N(θ; θ̂, V)·p(σ_e)·p(φ) dσ_e dφ,   p(ln σ_e) ∝ √(Σ (σ_e²/(σ_e² + λᵢ))²)
+    /// p(θ) ∝ Σ_m P(m)·∬ L_m(σ_e, φ)·N(θ; θ̂_m, V_m)·p(σ_e)·p(φ) dσ_e dφ
     /// ```
-    /// Jeffreys' prior: where the bounces' own noise is seen, `σ_e` is a scale; where the times hide it, small values count
-    /// less, as data that cannot show it are no evidence that it is 0 ([`Noise::information`]).
+    /// `p(ln σ_e)` is that of balls at large ([`BOUNCE_STD_AT_LARGE`]).
     /// Over `ln σ_e` by the trapezoidal rule, over ln φ by Gauss and Hermite's, laid where the posterior of φ is.
-    pub(super) fn over_noise(bounces: &Bounces, noise: &Noise, priors: &[Prior]) -> Option<Self> {
-        let at = |ln_bounce: f64, timing: f64| {
-            let sizes = Sizes {
-                bounce: ln_bounce.exp(),
-                timing,
-            };
-            let solution = solve(bounces, noise, sizes, priors)?;
-            let prior = 0.5 * noise.information(sizes)?.ln();
-            Some((solution.ln_likelihood + prior, sizes, solution))
-        };
-        let (range, top) = range(|ln_bounce| Some((at(ln_bounce, 1.0)?.0, ())))?;
-        let (centre, width) = timing_scale(|ln_timing| Some(at(top, ln_timing.exp())?.0))?;
-        let mut parts: Vec<(f64, Sizes, Solution)> =
-            Vec::with_capacity(range.count * HERMITE.len());
+    pub(super) fn over_noise(bounces: &Bounces, noise: &Noise, models: &[Model]) -> Option<Self> {
+        let search = Search::of(bounces, noise, models);
+        let (range, top) = range(|ln_bounce| Some((search.density(ln_bounce, 1.0)?, ())))?;
+        let likely = search.likely();
+        let search = search.among(likely);
+        let (centre, width) = timing_scale(|ln_timing| search.density(top, ln_timing.exp()))?;
+        let mut places = Vec::with_capacity(range.count * HERMITE.len());
         for k in 0..range.count {
             let end = k == 0 || k + 1 == range.count;
             for (node, weight) in HERMITE {
@@ -69,82 +91,215 @@ impl Posterior {
                 // The prior over the normal distribution that the rule is for.
                 let prior = 0.5 * (node * node - (ln_timing / TIMING_SCALE_STD).powi(2));
                 let share = weight * width / TIMING_SCALE_STD * if end { 0.5 } else { 1.0 };
-                let part = at(range.at(k), ln_timing.exp());
-                parts.extend(part.map(|(ln, sizes, s)| (ln + prior + share.ln(), sizes, s)));
+                places.extend(search.at(range.at(k), ln_timing.exp(), prior + share.ln()));
             }
         }
-        let best = parts.iter().map(|p| p.0).fold(f64::NEG_INFINITY, f64::max);
+        Self::normalised(&places, models, range.step, search.peaks())
+    }
+
+    /// From ln of the densities at places a step apart.
+    fn normalised(
+        places: &[Place],
+        models: &[Model],
+        step: f64,
+        peaks: Vec<Option<(f64, f64)>>,
+    ) -> Option<Self> {
+        let densities = || places.iter().flat_map(|p| &p.ln_densities);
+        let best = densities().map(|d| d.1).fold(f64::NEG_INFINITY, f64::max);
+        let mut parts = Vec::new();
         let mut total = 0.0;
-        for (weight, ..) in &mut parts {
-            *weight = (*weight - best).exp();
-            total += *weight;
+        for place in places {
+            for &(model, ln) in place.ln_densities.iter().filter(|d| d.1 > best - UNLIKELY) {
+                let priors = &models[model].priors;
+                let mut solution = place.equations.solve(priors)?;
+                solution.keep_above_least(priors);
+                let weight = (ln - best).exp();
+                total += weight;
+                parts.push(Part {
+                    weight,
+                    sizes: place.sizes,
+                    model,
+                    solution,
+                });
+            }
         }
-        for (weight, _, solution) in &mut parts {
-            *weight /= total;
-            solution.keep_above_least(priors);
+        for part in &mut parts {
+            part.weight /= total;
         }
         (total > 0.0).then(|| Self {
             parts,
-            least: priors.iter().map(|p| p.least).collect(),
-            ln_evidence: best + (total * range.step).ln(),
+            ln_evidence: best + (total * step).ln(),
+            peaks,
+        })
+    }
+
+    /// The same of some parts alone; none where they have no share.
+    pub(super) fn given(&self, is_meant: impl Fn(&Part) -> bool) -> Option<Self> {
+        let parts = self.parts.iter().filter(|p| is_meant(p));
+        let mut parts: Vec<Part> = parts.cloned().collect();
+        let total: f64 = parts.iter().map(|p| p.weight).sum();
+        for part in &mut parts {
+            part.weight /= total;
+        }
+        (total > 0.0).then(|| Self {
+            parts,
+            ln_evidence: self.ln_evidence + total.ln(),
+            peaks: self.peaks.clone(),
         })
     }
 
     /// Mean and standard deviation of a parameter, θ being number 0.
     pub(super) fn moments(&self, parameter: usize) -> (f64, f64) {
-        let mean = self.mean_of(|_, s| s.values[parameter]);
-        let variance = self.mean_of(|_, s| {
-            s.covariance[parameter][parameter] + (s.values[parameter] - mean).powi(2)
+        let mean = self.mean_of(|p| p.solution.values[parameter]);
+        let variance = self.mean_of(|p| {
+            let off = p.solution.values[parameter] - mean;
+            p.solution.covariance[parameter][parameter] + off * off
         });
         (mean, variance.sqrt())
     }
 
-    /// Mean of something over the mixture.
-    pub(super) fn mean_of(&self, of: impl Fn(Sizes, &Solution) -> f64) -> f64 {
-        self.parts.iter().map(|(w, n, s)| w * of(*n, s)).sum()
-    }
-
-    /// Means of two things that are found together.
-    pub(super) fn mean_of_two(&self, of: impl Fn(Sizes, &Solution) -> (f64, f64)) -> (f64, f64) {
-        let parts = self.parts.iter().map(|(w, n, s)| (w, of(*n, s)));
-        parts.fold((0.0, 0.0), |(a, b), (w, (x, y))| (a + w * x, b + w * y))
-    }
-
-    /// The value below which a parameter lies with this probability.
-    pub(super) fn quantile(&self, parameter: usize, probability: f64) -> f64 {
+    /// The value below which a parameter lies with this probability, if it can have no less than the least.
+    pub(super) fn quantile(&self, parameter: usize, least: f64, probability: f64) -> f64 {
         let normal = Normal::standard();
-        let least = self.least[parameter];
-        let below = |x: f64| {
-            self.mean_of(|_, s| {
-                let (mean, variance) = s.before_least[parameter];
-                let cdf = |x: f64| normal.cdf((x - mean) / variance.sqrt());
-                let cut = if least > f64::NEG_INFINITY {
-                    cdf(least)
-                } else {
-                    0.0
-                };
-                ((cdf(x) - cut) / (1.0 - cut).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
-            })
+        let parts = self.parts.iter().map(|p| {
+            let (mean, variance) = p.solution.before_least[parameter];
+            let cut = if least > f64::NEG_INFINITY {
+                normal.cdf((least - mean) / variance.sqrt())
+            } else {
+                0.0
+            };
+            (p.weight, mean, variance.sqrt(), cut)
+        });
+        let parts: Vec<_> = parts.collect();
+        let below = |x: f64| -> f64 {
+            let share = |&(weight, mean, std, cut): &(f64, f64, f64, f64)| {
+                let above_least = normal.cdf((x - mean) / std) - cut;
+                weight * (above_least / (1.0 - cut).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
+            };
+            parts.iter().map(share).sum()
         };
         let (mean, std) = self.moments(parameter);
-        // Chebyshev: not even 1 in 400 lies beyond 20 standard deviations.
-        let range = (mean - 20.0 * std, mean + 20.0 * std);
-        bisected(range, BISECTIONS, |x| below(x) < probability)
+        let range = (mean - RANGE_STDS * std, mean + RANGE_STDS * std);
+        bisected(range, HALVINGS, |x| below(x) < probability)
+    }
+
+    /// Mean of something over the mixture.
+    pub(super) fn mean_of(&self, of: impl Fn(&Part) -> f64) -> f64 {
+        self.parts.iter().map(|p| p.weight * of(p)).sum()
     }
 }
 
-/// The sizes of the noises of maximum likelihood, with the stated errors of the times, and their solution.
-pub(super) fn maximum_likelihood(
+/// The models at one size of each noise: of each that has a solution its number and ln of its density.
+struct Place {
+    sizes: Sizes,
+    equations: NormalEquations,
+    ln_densities: Vec<(usize, f64)>,
+}
+
+/// The models at sizes of the noises, and how likely each was at best.
+struct Search<'a> {
+    bounces: &'a Bounces,
+    noise: &'a Noise,
+    models: &'a [Model],
+    /// Numbers of the models that are looked at.
+    among: Vec<usize>,
+    with_bends: bool,
+    peaks: std::cell::RefCell<Vec<Option<(f64, f64)>>>,
+}
+
+impl<'a> Search<'a> {
+    fn of(bounces: &'a Bounces, noise: &'a Noise, models: &'a [Model]) -> Self {
+        let search = Self {
+            bounces,
+            noise,
+            models,
+            among: Vec::new(),
+            with_bends: false,
+            peaks: std::cell::RefCell::new(vec![None; models.len()]),
+        };
+        search.among((0..models.len()).collect())
+    }
+
+    /// Among models of these numbers.
+    fn among(mut self, among: Vec<usize>) -> Self {
+        let has_bends = |&m: &usize| !self.models[m].priors[FIRST_BEND].is_absent();
+        self.with_bends = among.iter().any(has_bends);
+        self.among = among;
+        self
+    }
+
+    /// ln of the densities over `ln σ_e` at these sizes.
+    fn at(&self, ln_bounce: f64, timing: f64, ln_share: f64) -> Option<Place> {
+        let sizes = Sizes {
+            bounce: ln_bounce.exp(),
+            timing,
+        };
+        let equations = NormalEquations::of(self.bounces, self.noise, sizes, self.with_bends)?;
+        let ln_prior = ln_density(ln_bounce);
+        let mut peaks = self.peaks.borrow_mut();
+        let ln_densities = self.among.iter().filter_map(|&number| {
+            let model = &self.models[number];
+            let (ln_likelihood, ln_e) = equations.ln_likelihood(&model.priors)?;
+            let ln = ln_likelihood + model.ln_odds + ln_prior;
+            if peaks[number].is_none_or(|(most, _)| ln > most) {
+                peaks[number] = Some((ln, ln_e));
+            }
+            Some((number, ln + ln_share))
+        });
+        Some(Place {
+            sizes,
+            ln_densities: ln_densities.collect(),
+            equations,
+        })
+    }
+
+    /// ln of the density of all models together.
+    fn density(&self, ln_bounce: f64, timing: f64) -> Option<f64> {
+        let place = self.at(ln_bounce, timing, 0.0)?;
+        let lns = || place.ln_densities.iter().map(|d| d.1);
+        let most = lns().fold(f64::NEG_INFINITY, f64::max);
+        let sum: f64 = lns().map(|ln| (ln - most).exp()).sum();
+        (sum > 0.0).then(|| most + sum.ln())
+    }
+
+    /// Numbers of the models that were likely at some size of the noises.
+    fn likely(&self) -> Vec<usize> {
+        let peaks = self.peaks.borrow();
+        let ln = |m: usize| peaks[m].map_or(f64::NEG_INFINITY, |p| p.0);
+        let most = (0..peaks.len()).map(ln).fold(f64::NEG_INFINITY, f64::max);
+        (0..peaks.len())
+            .filter(|&m| ln(m) > most - UNLIKELY)
+            .collect()
+    }
+
+    fn peaks(self) -> Vec<Option<(f64, f64)>> {
+        self.peaks.into_inner()
+    }
+}
+
+/// ln of the density of `ln σ_e` for balls at large.
+///
+/// # Formula
+/// Student's distribution of four degrees of freedom: `p(u) = (3/8)·(1 + u²/4)^(−5/2)/s`, `u = (ln σ_e − m)/s`.
+pub(super) fn ln_density(ln_bounce: f64) -> f64 {
+    let Known { value, std } = BOUNCE_STD_AT_LARGE;
+    let off = (ln_bounce - value) / std;
+    (0.375 / std).ln() - 2.5 * (0.25 * off * off).ln_1p()
+}
+
+/// The sizes of the noises that are likeliest, with the stated errors of the times, and their solution.
+pub(super) fn likeliest(
     bounces: &Bounces,
     noise: &Noise,
-    priors: &[Prior],
+    priors: &Priors,
 ) -> Option<(Sizes, Solution)> {
     let at = |ln_bounce: f64| {
         let sizes = Sizes {
             bounce: ln_bounce.exp(),
             timing: 1.0,
         };
-        let solution = solve(bounces, noise, sizes, priors)?;
+        let mut solution = solve(bounces, noise, sizes, priors)?;
+        solution.ln_likelihood += ln_density(ln_bounce);
         Some((solution.ln_likelihood, (sizes, solution)))
     };
     let (range, top) = range(at)?;
@@ -155,9 +310,6 @@ pub(super) fn maximum_likelihood(
         _ => Some(hill.top.2),
     }
 }
-
-/// Forty standard deviations halved this often leave a millionth of one.
-const BISECTIONS: usize = 26;
 
 /// The part of the range of `ln σ_e` that matters, in fine steps, and about the place in it of greatest density.
 fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)> {
@@ -171,7 +323,7 @@ fn range<T>(ln_density: impl Fn(f64) -> Option<(f64, T)>) -> Option<(Grid, f64)>
         from = (hill.lowest - grid.step).max(first);
         to = (hill.highest + grid.step).min(last);
     }
-    let count = crate::units::whole(((to - from) / FINE_STEP).ceil()) + 1;
+    let count = whole(((to - from) / FINE_STEP).ceil()) + 1;
     Some((Grid::new(from, to, count.max(FEWEST_STEPS)), top))
 }
 
@@ -187,116 +339,4 @@ fn timing_scale(ln_likelihood: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)
         centre.clamp(-2.0 * TIMING_SCALE_STD, 2.0 * TIMING_SCALE_STD),
         width,
     ))
-}
-
-/// Place of most balls in the range of `ln σ_e`, as a share of it: half a per cent.
-const COMMON: f64 = 0.67;
-
-/// Evenly spaced places.
-#[derive(Debug, Clone, Copy)]
-struct Grid {
-    from: f64,
-    step: f64,
-    count: usize,
-}
-
-/// The peak of a unimodal function and where it falls below `negligible`.
-#[derive(Debug)]
-struct Hill<T> {
-    /// Place, value, and what was found there.
-    top: (f64, f64, T),
-    /// Vertex of the parabola through the top and its neighbours; the top itself at an end of the grid.
-    vertex: f64,
-    lowest: f64,
-    highest: f64,
-}
-
-impl Grid {
-    fn new(from: f64, to: f64, count: usize) -> Self {
-        Self {
-            from,
-            step: (to - from) / real(count - 1),
-            count,
-        }
-    }
-
-    fn at(&self, index: usize) -> f64 {
-        self.from + real(index) * self.step
-    }
-
-    /// The peak of a unimodal function, and the range in which it is below it by no more than `negligible`.
-    ///
-    /// The function is evaluated from the place nearest to `start` both ways until it is below that range: the rest of the
-    /// grid costs nothing.
-    fn hill<T>(
-        &self,
-        start: f64,
-        negligible: f64,
-        of: impl Fn(f64) -> Option<(f64, T)>,
-    ) -> Option<Hill<T>> {
-        let start = crate::units::whole((start - self.from) / self.step);
-        let start = start.min(self.count - 1);
-        let mut top: Option<(f64, f64, T)> = None;
-        let mut values = Vec::with_capacity(self.count);
-        let mut falls = |index: usize| {
-            let place = self.at(index);
-            let found = of(place);
-            let value = found.as_ref().map_or(f64::NEG_INFINITY, |f| f.0);
-            values.push((place, value));
-            let highest = top.as_ref().map_or(f64::NEG_INFINITY, |t| t.1);
-            if let Some((value, found)) = found.filter(|f| f.0 > highest) {
-                top = Some((place, value, found));
-            }
-            value < highest - negligible
-        };
-        let _ = (0..=start).rev().any(&mut falls);
-        let _ = (start + 1..self.count).any(&mut falls);
-        let top = top?;
-        let beside = |step: f64| {
-            let is_there = |v: &&(f64, f64)| (v.0 - top.0 - step).abs() < 0.5 * self.step;
-            values.iter().find(is_there).map(|v| v.1)
-        };
-        let vertex = match (beside(-self.step), beside(self.step)) {
-            (Some(left), Some(right)) if left.min(right) > f64::NEG_INFINITY => {
-                let curvature = (left - top.1) + (right - top.1);
-                let off = 0.5 * (left - right) / curvature.min(-f64::MIN_POSITIVE);
-                top.0 + self.step * off.clamp(-0.5, 0.5)
-            }
-            _ => top.0,
-        };
-        let inside = values.iter().filter(|v| v.1 >= top.1 - negligible);
-        let inside = inside.map(|v| v.0);
-        Some(Hill {
-            vertex,
-            lowest: inside.clone().fold(f64::INFINITY, f64::min),
-            highest: inside.fold(f64::NEG_INFINITY, f64::max),
-            top,
-        })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_hill_is_the_same_from_wherever_it_is_climbed() {
-        let grid = Grid::new(-3.0, 7.0, 101);
-        for start in [-3.0, 0.0, 2.1, 2.2, 5.0, 7.0] {
-            let hill = grid.hill(start, 1.0, |x| Some((-(x - 2.13).powi(2), ())));
-            let hill = hill.unwrap();
-            let ends = [hill.top.0, hill.lowest, hill.highest];
-            for (end, expected) in ends.into_iter().zip([2.1, 1.2, 3.1]) {
-                assert!((end - expected).abs() < 1e-9, "from {start}: {ends:?}");
-            }
-        }
-    }
-
-    #[test]
-    fn where_there_is_no_value_is_no_hill() {
-        let grid = Grid::new(0.0, 1.0, 11);
-        let right = grid.hill(0.1, 1.0, |x| (x > 0.45).then_some((-x, ())));
-        assert!((right.unwrap().top.0 - 0.5).abs() < 1e-9);
-        assert!(grid.hill(0.1, 1.0, |_| None::<(f64, ())>).is_none());
-    }
 }

@@ -3,7 +3,7 @@
 //! All impacts are alike, of a linear ball with gravity in contact, or of viscoelastic spheres;
 //! [`RestitutionLaw`](crate::physics::RestitutionLaw) has the formulas of the last.
 
-use super::bounces::{ImpactLaw, Terms, Values};
+use super::bounces::{ImpactLaw, Values};
 use crate::physics::ends::Ends;
 use crate::physics::{InterpolatedContact, VISCOELASTIC_POWER};
 use crate::units::real;
@@ -15,7 +15,7 @@ pub(super) struct Flight {
     pub shorter: f64,
 }
 
-/// The law's loss of ln e at one bounce, less that at the mean speed, where ln e is θ.
+/// The law's loss of ln e at one bounce, less that at the speed of reference, where ln e is θ.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Loss {
     pub ln: f64,
@@ -39,11 +39,11 @@ enum TrialKind {
 
 impl TrialLaw {
     /// None if a ball with these values would not leave.
-    pub(super) fn of(trial_s: &[f64], terms: &Terms, values: Values) -> Option<Self> {
+    pub(super) fn of(trial_s: &[f64], law: ImpactLaw, values: Values) -> Option<Self> {
         let flights = trial_s.windows(2).map(|w| w[1] - w[0] - values.contact_s);
         let shortest = flights.fold(f64::INFINITY, f64::min);
         let ln_restitution = values.ln_fast_restitution;
-        let law = match terms.law {
+        let law = match law {
             ImpactLaw::Alike => TrialKind::Alike,
             ImpactLaw::Linear => TrialKind::Linear(InterpolatedContact::of(
                 ln_restitution,
@@ -57,22 +57,22 @@ impl TrialLaw {
         })
     }
 
-    /// The losses at these ln speeds of arrival (as flights in seconds), beyond that at their mean, and `ln(e/e₀)` at the
-    /// mean, e₀ being that of fast impacts.
+    /// The losses at these ln speeds of arrival (as flights in seconds), beyond that at the reference, and `ln(e/e₀)`
+    /// there, e₀ being that of fast impacts.
     pub(super) fn losses(
         &self,
         values: Values,
         ln_speeds: &[f64],
-        mean_ln_speed: f64,
+        reference: f64,
     ) -> (Vec<Loss>, f64) {
         match &self.law {
             TrialKind::Alike => (vec![Loss::default(); ln_speeds.len()], 0.0),
             TrialKind::Linear(contact) => {
-                self.with_gravity_in_contact(contact, values, ln_speeds, mean_ln_speed)
+                self.with_gravity_in_contact(contact, values, ln_speeds, reference)
             }
             TrialKind::Viscoelastic => {
                 let lost = |ln_speed: &f64| {
-                    let factor = (VISCOELASTIC_POWER * (ln_speed - mean_ln_speed)).exp();
+                    let factor = (VISCOELASTIC_POWER * (ln_speed - reference)).exp();
                     Loss {
                         ln: self.ln_restitution * (factor - 1.0),
                         by_restitution: factor - 1.0,
@@ -85,18 +85,18 @@ impl TrialLaw {
         }
     }
 
-    /// The losses of a linear ball by gravity in contact, counted from that at the mean speed: the mean of the losses, which
+    /// The losses of a linear ball by gravity in contact, counted from that at the speed of reference: the mean of the losses, which
     /// the slowest impacts dominate, belongs to no known speed.
     ///
     /// # Formula
     /// With `δ(s, e₀) ≈ −s·h(e₀)`, `κ = d ln h/d ln e₀ ≈ 1/l − 2l/(π² + l²) − 1/(1 + e₀)`, l = ln e₀, and
-    /// `θ = l + δ̄`, δ̄ the loss at the mean speed: `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
+    /// `θ = l + δ̄`, δ̄ the loss at the reference: `dl = (dθ − δ̄_C·dC)/(1 + κδ̄)`.
     fn with_gravity_in_contact(
         &self,
         contact: &InterpolatedContact,
         values: Values,
         ln_speeds: &[f64],
-        mean_ln_speed: f64,
+        reference: f64,
     ) -> (Vec<Loss>, f64) {
         let at = |ln_speed: f64| {
             let flight_s = ln_speed.exp();
@@ -109,7 +109,7 @@ impl TrialLaw {
                 by_ln_flight: -s * slope,
             }
         };
-        let middle = at(mean_ln_speed);
+        let middle = at(reference);
         let l = self.ln_restitution;
         let kappa =
             1.0 / l - 2.0 * l / (std::f64::consts::PI.powi(2) + l * l) - 1.0 / (1.0 + l.exp());

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize, Serializer};
 
 use super::Drop;
-use crate::fit::model_selection::Candidate;
+use crate::fit::model_selection::{Candidate, Unfit};
 use crate::fit::{BallParameters, Estimate, ModelKind};
 use crate::physics::BallModel;
 use crate::words::words;
@@ -20,6 +20,9 @@ pub struct Model {
     pub parameters: Parameters,
     /// The models that were compared.
     pub candidates: Vec<Candidate>,
+    /// Those that could not be fitted, and why.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub unfitted: Vec<Unfit>,
     /// Another model that explains the drop as well, with something else in place of what was selected.
     pub alike: Option<ModelKind>,
 }

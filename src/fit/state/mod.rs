@@ -1,9 +1,13 @@
 //! A trial of times and parameters, and its convergence to a solution by rounds of linear fits.
 
-use super::bounces::{Bounces, ImpactLaw, MOST_PARAMETERS, Terms, Values};
-use super::least_squares::{Prior, Solution};
+use super::bounces::{
+    Bounces, CONTACT, DRAG, FIRST_BEND, ImpactLaw, PARAMETERS, SPEED, Terms, Values,
+};
 use super::noise::{Noise, Sizes};
-use super::posterior::maximum_likelihood;
+use super::posterior::likeliest;
+use super::prior::{Prior, Priors};
+use super::solution::Solution;
+use super::unfitted::Unfitted;
 use crate::impact::Impact;
 use crate::physics::priors::Known;
 use crate::statistics::upper_median;
@@ -29,7 +33,10 @@ const GREATEST_DRAG: f64 = 100.0;
 #[derive(Debug, Clone)]
 pub(super) struct State<'a> {
     pub impacts: &'a [Impact],
+    /// The model about whose solution the others are made linear.
     pub terms: Terms,
+    /// ln of the speed where e is stated; the mean over the trial where none is given.
+    pub reference: Option<f64>,
     /// Bounces that are left out, the first being number 0.
     left_out: Vec<usize>,
     trial_s: Vec<f64>,
@@ -63,6 +70,7 @@ impl<'a> State<'a> {
         let mut state = Self {
             impacts,
             terms: *terms,
+            reference: None,
             left_out: odd.iter().map(|impact| impact - 1).collect(),
             trial_s,
             shorter,
@@ -76,6 +84,13 @@ impl<'a> State<'a> {
             ln_fast_restitution: state.middle_ratio().ln(),
         });
         state
+    }
+
+    /// Takes over what another trial doubts: its outliers.
+    pub(super) fn doubt_like(&mut self, other: &Self) {
+        self.time_variances.clone_from(&other.time_variances);
+        self.variance_inflation
+            .clone_from(&other.variance_inflation);
     }
 
     /// The nearest values that the parameters can have.
@@ -115,7 +130,8 @@ impl<'a> State<'a> {
     }
 
     pub(super) fn bounces(&self) -> Option<Bounces> {
-        Bounces::around(&self.trial_s, self.impacts, &self.terms, self.values)
+        let (law, values) = (self.terms.law, self.values);
+        Bounces::around(&self.trial_s, self.impacts, law, values, self.reference)
     }
 
     pub(super) fn noise(&self, bounces: &Bounces) -> Noise {
@@ -127,36 +143,56 @@ impl<'a> State<'a> {
         .leaving_out(&self.left_out)
     }
 
-    /// The prior of each fitted parameter, counted from its trial value.
-    pub(super) fn priors(&self) -> Vec<Prior> {
-        let mut priors = vec![Prior::FLAT];
-        for (known, trial, least) in [
-            (self.terms.contact, self.values.contact_s, 0.0),
-            (self.terms.drag, self.values.drag_per_s2, 0.0),
-            (self.terms.speed, 0.0, f64::NEG_INFINITY),
-        ] {
-            priors.extend(known.map(|k| Prior::new(k.value - trial, k.std, least - trial)));
+    /// The priors of the model.
+    pub(super) fn priors(&self) -> Priors {
+        self.priors_of(&self.terms)
+    }
+
+    /// The priors of any model, counted from the trial values.
+    pub(super) fn priors_of(&self, terms: &Terms) -> Priors {
+        let mut priors = [Prior::ABSENT; PARAMETERS];
+        priors[0] = Prior::FLAT;
+        let of_bounded = [terms.contact, terms.drag];
+        for ((place, trial, greatest), known) in self.bounds().into_iter().zip(of_bounded) {
+            if let Some(known) = known {
+                let prior = Prior::new(known.value - trial, known.std, -trial);
+                priors[place] = prior.up_to(greatest - trial);
+            }
+        }
+        if let Some(known) = terms.speed {
+            priors[SPEED] = Prior::new(known.value, known.std, f64::NEG_INFINITY);
+        }
+        if let Some(amplitude) = terms.bend {
+            priors[FIRST_BEND..].fill(Prior::new(0.0, amplitude, f64::NEG_INFINITY));
         }
         priors
     }
 
-    /// Finds times and parameters by rounds of linear fits at the noise of maximum likelihood. None if they do not converge,
-    /// or only where a parameter is held at its greatest value.
-    pub(super) fn converge(&mut self) -> Option<()> {
+    /// Finds times and parameters by rounds of linear fits at the likeliest noise.
+    ///
+    /// # Errors
+    /// If they do not converge, or only where a parameter is held at its greatest value.
+    pub(super) fn converge(&mut self) -> Result<(), Unfitted> {
         self.converge_to(CONVERGED, MOST_ROUNDS)
     }
 
     /// The step is damped: a trial that turns round oscillates about a solution and moves by half as much, one that goes on
     /// by twice as much.
-    fn converge_to(&mut self, rest: f64, rounds: usize) -> Option<()> {
+    fn converge_to(&mut self, rest: f64, rounds: usize) -> Result<(), Unfitted> {
         let (mut share, mut before): (f64, Vec<f64>) = (1.0, Vec::new());
         for _ in 0..rounds {
-            let bounces = self.bounces()?;
+            let bounces = self.bounces().ok_or(Unfitted::NoFlight)?;
             let noise = self.noise(&bounces);
-            let (sizes, solution) = maximum_likelihood(&bounces, &noise, &self.priors())?;
-            let step = self.step(&bounces, &noise, sizes, solution)?;
+            let solved = likeliest(&bounces, &noise, &self.priors());
+            let (sizes, solution) = solved.ok_or(Unfitted::NoNoise)?;
+            let step = self.step(&bounces, &noise, sizes, solution);
+            let step = step.ok_or(Unfitted::NoNoise)?;
             if step.in_stds.iter().all(|m| m.abs() < rest) {
-                return (!step.held_back).then_some(());
+                return if step.held_back {
+                    Err(Unfitted::Bound)
+                } else {
+                    Ok(())
+                };
             }
             let turned: f64 = step.in_stds.iter().zip(&before).map(|(a, b)| a * b).sum();
             share = if turned < 0.0 {
@@ -167,7 +203,7 @@ impl<'a> State<'a> {
             self.go(&step, share);
             before = step.in_stds;
         }
-        None
+        Err(Unfitted::Restless)
     }
 
     /// The step from the trial to a solution, for the times to their conditional means given the bounces.
@@ -178,12 +214,11 @@ impl<'a> State<'a> {
         sizes: Sizes,
         mut solution: Solution,
     ) -> Option<Step> {
-        let stds: [f64; MOST_PARAMETERS] =
-            std::array::from_fn(|i| solution.covariance[i][i].sqrt());
+        let stds: [f64; PARAMETERS] = std::array::from_fn(|i| solution.covariance[i][i].sqrt());
         let held_back = self.hold(&mut solution);
         let pulls = pulls(bounces, noise, sizes, &solution)?;
         let mut moves_s = Vec::with_capacity(self.trial_s.len());
-        let mut in_stds = Vec::with_capacity(self.trial_s.len() + MOST_PARAMETERS);
+        let mut in_stds = Vec::with_capacity(self.trial_s.len() + PARAMETERS);
         for (k, trial_s) in self.trial_s.iter().enumerate() {
             let variance = sizes.timing.powi(2) * self.time_variances[k];
             let solved_s = self.impacts[k].time_s - variance * time_pull(bounces, &pulls, k);
@@ -191,20 +226,17 @@ impl<'a> State<'a> {
             in_stds.push((solved_s - trial_s) / variance.sqrt());
         }
         let ln_fast = (solution.values[0] - bounces.middle_loss).min(GREATEST_LN_FAST);
-        let mut moves = [0.0; MOST_PARAMETERS];
+        let mut moves = [0.0; PARAMETERS];
         moves[0] = ln_fast - self.values.ln_fast_restitution;
-        let [contact, drag] = self.terms.places();
-        for place in [contact, drag].into_iter().flatten() {
-            moves[place] = solution.values[place];
-        }
-        let parameters = moves.iter().zip(stds).take(1 + self.terms.count());
+        moves[CONTACT] = solution.values[CONTACT];
+        moves[DRAG] = solution.values[DRAG];
+        let parameters = moves.iter().zip(stds).filter(|(_, std)| *std > 0.0);
         in_stds.extend(parameters.map(|(m, std)| m / std));
-        let moved = |place: Option<usize>| place.map_or(0.0, |p| moves[p]);
         Some(Step {
             moves_s,
             moves: Values {
-                contact_s: moved(contact),
-                drag_per_s2: moved(drag),
+                contact_s: moves[CONTACT],
+                drag_per_s2: moves[DRAG],
                 ln_fast_restitution: moves[0],
             },
             in_stds,
@@ -212,28 +244,18 @@ impl<'a> State<'a> {
         })
     }
 
-    /// Whether C and K are within their ranges after a move of the parameter at each place.
-    pub(super) fn can_have(&self, moved: impl Fn(usize) -> f64) -> bool {
-        let [contact, drag] = self.terms.places();
-        [
-            (contact, self.values.contact_s, self.greatest_contact_s()),
-            (drag, self.values.drag_per_s2, GREATEST_DRAG),
-        ]
-        .into_iter()
-        .all(|(place, now, greatest)| place.is_none_or(|p| now + moved(p) <= greatest))
+    /// Place, trial value and greatest value of C and K.
+    fn bounds(&self) -> [(usize, f64, f64); 2] {
+        let contact = (CONTACT, self.values.contact_s, self.greatest_contact_s());
+        [contact, (DRAG, self.values.drag_per_s2, GREATEST_DRAG)]
     }
 
     /// Holds C and K of a solution within their ranges; gives whether one would be greater.
     fn hold(&self, solution: &mut Solution) -> bool {
-        let [contact, drag] = self.terms.places();
-        let bounds = [
-            (contact, self.values.contact_s, self.greatest_contact_s()),
-            (drag, self.values.drag_per_s2, GREATEST_DRAG),
-        ];
+        let bounds = self.bounds();
         let mut held_back = false;
         // Holding the second moves the first, which may then have to be held.
         for (place, now, greatest) in [bounds[0], bounds[1], bounds[0]] {
-            let Some(place) = place else { continue };
             let wanted = now + solution.values[place];
             if !(0.0..=greatest).contains(&wanted) {
                 held_back |= wanted > greatest;

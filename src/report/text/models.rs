@@ -95,6 +95,10 @@ pub(super) fn models(out: &mut String, model: &Model) {
             ),
         );
     }
+    for unfit in &model.unfitted {
+        let reason = unfit.reason.in_words();
+        line(out, &format!("  {:<14} not fitted: {reason}", unfit.model));
+    }
 }
 
 #[cfg(test)]

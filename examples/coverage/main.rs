@@ -12,6 +12,9 @@
     reason = "an example prints, and stops at the first surprise"
 )]
 
+mod laws;
+mod outside;
+
 use std::sync::Mutex;
 use std::thread;
 
@@ -394,6 +397,10 @@ fn line(cell: &Cell, tally: &Tally) -> String {
 }
 
 fn main() {
+    if std::env::args().nth(1).is_some_and(|a| a == "outside") {
+        let drops = std::env::args().nth(2).map_or(300, |a| a.parse().unwrap());
+        return outside::print(drops);
+    }
     let drops: usize = std::env::args().nth(1).map_or(500, |a| a.parse().unwrap());
     let cells = cells();
     let lines = Mutex::new(vec![String::new(); cells.len()]);
