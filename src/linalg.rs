@@ -37,14 +37,16 @@ impl<const N: usize> Cholesky<N> {
             pivots: [0.0; N],
             size: size.min(N),
         };
+        let mut reciprocals = [0.0; N];
         for (i, row) in matrix.iter().enumerate().take(factors.size) {
             let mut pivot = row[i];
+            // The row of L·D, of which that of L follows.
+            let mut scaled = [0.0; N];
             for (j, element) in row.iter().enumerate().take(i) {
-                let known: f64 = (0..j)
-                    .map(|k| factors.lower[i][k] * factors.pivots[k] * factors.lower[j][k])
-                    .sum();
-                let left = element - known;
-                let factor = left / factors.pivots[j];
+                let known = scaled[..j].iter().zip(&factors.lower[j][..j]);
+                let left = element - known.map(|(s, l)| s * l).sum::<f64>();
+                scaled[j] = left;
+                let factor = left * reciprocals[j];
                 factors.lower[i][j] = factor;
                 pivot -= factor * left;
             }
@@ -52,6 +54,7 @@ impl<const N: usize> Cholesky<N> {
                 return None;
             }
             factors.pivots[i] = pivot;
+            reciprocals[i] = 1.0 / pivot;
         }
         Some(factors)
     }
@@ -60,7 +63,8 @@ impl<const N: usize> Cholesky<N> {
     fn forward(&self, right: &[f64; N]) -> [f64; N] {
         let mut y = *right;
         for i in 0..self.size {
-            let known: f64 = (0..i).map(|k| self.lower[i][k] * y[k]).sum();
+            let known = self.lower[i][..i].iter().zip(&y[..i]);
+            let known: f64 = known.map(|(l, y)| l * y).sum();
             y[i] -= known;
         }
         y
@@ -95,7 +99,9 @@ impl<const N: usize> Cholesky<N> {
 
     /// `ln det M`.
     pub(crate) fn ln_determinant(&self) -> f64 {
-        self.pivots[..self.size].iter().map(|d| d.ln()).sum()
+        // The product of four variances neither overflows nor vanishes.
+        let fours = self.pivots[..self.size].chunks(4);
+        fours.map(|d| d.iter().product::<f64>().ln()).sum()
     }
 }
 

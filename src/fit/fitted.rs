@@ -78,13 +78,14 @@ fn best(state: &State<'_>, hypotheses: &[Hypothesis]) -> Result<(usize, f64), Un
     let noise = state.noise(&bounces);
     let models = models(state, hypotheses);
     let (own, _) = likeliest(&bounces, &noise, &state.priors()).ok_or(Unfitted::NoNoise)?;
+    let with_bends = hypotheses.iter().any(|h| h.terms.bend.is_some());
     let mut best: Option<(usize, f64)> = None;
     for factor in SCATTERS {
         let sizes = Sizes {
             bounce: factor * own.bounce,
             ..own
         };
-        let Some(equations) = NormalEquations::of(&bounces, &noise, sizes, true) else {
+        let Some(equations) = NormalEquations::of(&bounces, &noise, sizes, with_bends) else {
             continue;
         };
         for (number, model) in models.iter().enumerate() {
@@ -100,8 +101,8 @@ fn best(state: &State<'_>, hypotheses: &[Hypothesis]) -> Result<(usize, f64), Un
     best.ok_or(Unfitted::NoNoise)
 }
 
-/// Multiples of the scatter at which models are compared: within a factor of √2 likelihoods are flat for a dozen bounces.
-const SCATTERS: [f64; 5] = [0.25, 0.5, 1.0, 2.0, 4.0];
+/// Multiples of the scatter at which models are compared: the likelihood is flat within a factor of √2 for a dozen bounces.
+const SCATTERS: [f64; 3] = [0.5, 1.0, 2.0];
 
 fn models(state: &State<'_>, hypotheses: &[Hypothesis]) -> Vec<Model> {
     let model = |h: &Hypothesis| Model {

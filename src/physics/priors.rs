@@ -5,8 +5,8 @@
 //! | quantity | prior | balls that it has to hold |
 //! |---|---|---|
 //! | ln e | [`LN_RESTITUTION`] | e from 0.35 to 0.99 |
-//! | C, contact time | [`CONTACT_S`], [`MIDDLE_CONTACT_S`], [`LITTLE_CONTACT_S`], [`TRACKED_CONTACT_S`] | steel 0.1 ms, ping-pong 0.68 ms (Jena, Wassin and Gibbon 2021), basketball 12 ms |
-//! | K, drag | [`DRAG_PER_S2`], [`TRACKED_DRAG_PER_S2`], [`LITTLE_DRAG_PER_S2`] | `(g/v_t)²` of [`FlightLaw::in_air`](super::FlightLaw::in_air): steel 0.02, golf 0.1, ping-pong 1.4, foam 5 s⁻² |
+//! | C, contact time | [`CONTACT_S`], [`LONG_CONTACT_S`], [`MIDDLE_CONTACT_S`], [`LITTLE_CONTACT_S`], [`TRACKED_CONTACT_S`] | steel 0.1 ms, ping-pong 0.68 ms (Jena, Wassin and Gibbon 2021), basketball 12 ms |
+//! | K, drag | [`DRAG_PER_S2`], [`TRACKED_DRAG_PER_S2`], [`MUCH_DRAG_PER_S2`], [`LITTLE_DRAG_PER_S2`] | `(g/v_t)²` of [`FlightLaw::in_air`](super::FlightLaw::in_air): steel 0.02, golf 0.1, ping-pong 1.4, foam 5 s⁻² |
 //! | p, how e falls with the speed | [`SPEED_EXPONENT`], [`SPEED_EXPONENT_BEYOND`] | tennis 0.06; ¼ for plastic contact, by theory |
 //! | smooth departure of ln e from its law | [`BEND`] | |
 //! | scatter of ln e | [`BOUNCE_STD`], [`BOUNCE_STD_AT_LARGE`], [`TRACKED_BOUNCE_STD`] | ping-pong 0.005 (Erickson 2020) |
@@ -50,7 +50,7 @@ pub const LN_RESTITUTION: Known = Known {
     std: 0.35,
 };
 
-/// C of balls at large, in seconds: from a steel ball's tenth of a millisecond to a basketball's twelve.
+/// C of balls at large where all have one prior, in seconds: from a steel ball's tenth of a millisecond to a basketball's twelve.
 pub const CONTACT_S: Known = Known {
     value: 2e-3,
     std: 6e-3,
@@ -68,6 +68,12 @@ pub const MIDDLE_CONTACT_S: Known = Known {
     std: 1e-3,
 };
 
+/// C of soft balls, in seconds: tennis 5 ms, and one in sixty has a basketball's twelve.
+pub const LONG_CONTACT_S: Known = Known {
+    value: 0.0,
+    std: 5e-3,
+};
+
 /// C for the tracker, in seconds: a fifth of [`CONTACT_S`]. The tracker takes e to be the same at all speeds, and of the
 /// contact of a ball with its weight it then sees only `ΔT − 4ζ(1 + e)/(ω(1 − e))`, 0.19 to 0.20 of ΔT for e from 0.95 to
 /// 0.5, as slow impacts lose more.
@@ -76,11 +82,17 @@ pub const TRACKED_CONTACT_S: Known = CONTACT_S.times(0.2);
 /// Relative standard error of a contact time that is given: unless it is measured no one knows it better.
 pub const CONTACT_RELATIVE_STD: f64 = 0.05;
 
-/// K of balls that the air slows, in s⁻²: 1.4 for a ping-pong ball, 5 for a foam ball. Of a model without such a drag see
-/// [`LITTLE_DRAG_PER_S2`].
+/// K of balls that the air slows where all have one prior, in s⁻²: 1.4 for a ping-pong ball, 5 for a foam ball.
 pub const DRAG_PER_S2: Known = Known {
     value: 1.0,
     std: 2.0,
+};
+
+/// K of balls that the air slows, in s⁻²: 1.4 for a ping-pong ball; a foam ball's 5 are more than three of these, and its
+/// flights tell. Of a ball that the air hardly slows see [`LITTLE_DRAG_PER_S2`].
+pub const MUCH_DRAG_PER_S2: Known = Known {
+    value: 0.0,
+    std: 1.5,
 };
 
 /// K for the tracker, in s⁻²: half of [`DRAG_PER_S2`], as half of the balls have next to none and it takes all to be of one
@@ -104,7 +116,7 @@ pub const SPEED_EXPONENT: Known = Known {
 /// Sizes that a smooth departure of ln e from its law can have over a factor of 2.5 in speed: e of real balls differs by 0.2 to
 /// 0.5 % between the fast and the slow half of a drop beyond drag (17 recordings); of shells, and where spin turns into
 /// speed, by some per cent.
-pub const BEND: [f64; 3] = [1e-3, 5e-3, 2.5e-2];
+pub const BEND: [f64; 2] = [4e-3, 3e-2];
 
 /// Standard deviation of p about 0 for a ball whose e was the same at all speeds heard, beyond those: smaller than that of
 /// [`SPEED_EXPONENT`], as what the drop showed speaks against a large one.
