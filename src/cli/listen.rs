@@ -92,8 +92,11 @@ const TIMINGS: [Word<Timing>; 4] = [
     ),
 ];
 
-const MODELS: [Word<Choice>; 7] = [
-    model(Choice::Auto, "As much as the recording supports"),
+const MODELS: [Word<Choice>; 8] = [
+    model(
+        Choice::Auto,
+        "All of them but viscoelastic, by what the recording supports",
+    ),
     model(Choice::Constant, "Constant e"),
     model(
         Choice::Contact,
@@ -108,6 +111,10 @@ const MODELS: [Word<Choice>; 7] = [
     model(
         Choice::Viscoelastic,
         "Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed",
+    ),
+    model(
+        Choice::Flexible,
+        "Contact, drag, and any smooth course of e with the speed",
     ),
 ];
 

@@ -100,7 +100,8 @@ impl Mixture {
         Self { components }
     }
 
-    /// Mean, standard deviation and interval; the mean alone where the data do not tell more.
+    /// Median, standard deviation and interval; the median alone where the data do not tell more. The median, as one likely
+    /// model with a long tail draws the mean away from all others.
     pub(super) fn parameter(&self, known: bool) -> Parameter {
         let moments: Vec<(f64, f64, f64)> = self
             .components
@@ -116,11 +117,11 @@ impl Mixture {
         let std = variance.sqrt();
         let range = (mean - RANGE_STDS * std, (mean + RANGE_STDS * std).min(0.0));
         let below = |x: f64| -> f64 { self.components.iter().map(|c| c.weight * c.below(x)).sum() };
+        let quantile = |p: f64| bisected(range, HALVINGS, |x| below(x) < p);
         Parameter {
-            value: mean,
+            value: quantile(0.5),
             std: known.then_some(std),
-            interval95: known
-                .then(|| [0.025, 0.975].map(|p| bisected(range, HALVINGS, |x| below(x) < p))),
+            interval95: known.then(|| [0.025, 0.975].map(quantile)),
         }
     }
 }

@@ -16,7 +16,7 @@ pub(super) const FEWEST: usize = 3;
 /// A model fitted to a drop.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fit {
-    /// ln e at the mean speed, by all models: mean, standard deviation, and the ends of the interval that holds it with 95 %;
+    /// ln e at the mean speed, by all models: median, standard deviation, and the ends of the interval that holds it with 95 %;
     /// none for one ratio alone.
     pub ln_restitution: Parameter,
     /// ln e at the mean speed by this model alone.

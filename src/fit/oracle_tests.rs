@@ -272,7 +272,7 @@ fn the_whole_fit_is_that_of_the_oracle() {
         let oracle = &row.posterior;
         let [from, to] = oracle.interval95;
         let off = largest(
-            &[found.value, found.std.unwrap(), low, high],
+            &[fit.own_ln_restitution, found.std.unwrap(), low, high],
             &[oracle.mean[0], oracle.std[0], from, to],
             &[oracle.std[0]; 4],
         );

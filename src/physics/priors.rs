@@ -68,10 +68,10 @@ pub const MIDDLE_CONTACT_S: Known = Known {
     std: 1e-3,
 };
 
-/// C of soft balls, in seconds: tennis 5 ms, and one in sixty has a basketball's twelve.
+/// C of soft balls, in seconds: tennis 5 ms, and one in twenty has a basketball's twelve.
 pub const LONG_CONTACT_S: Known = Known {
     value: 0.0,
-    std: 5e-3,
+    std: 6e-3,
 };
 
 /// C for the tracker, in seconds: a fifth of [`CONTACT_S`]. The tracker takes e to be the same at all speeds, and of the

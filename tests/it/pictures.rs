@@ -132,7 +132,7 @@ fn a_sheet_has_a_mark_for_each_impact_and_for_all_that_follows_from_it() {
     assert_eq!(all, marks, "{rings} rings");
     for part in [
         "clicks.wav",
-        "e = 0.85",
+        "e = 0.8",
         "Level of channel 1",
         "Impact 1: 0.",
         "Flight T",
