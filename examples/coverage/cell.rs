@@ -150,16 +150,17 @@ impl Cell {
         })
     }
 
-    /// A drop and its own ln e.
-    pub(crate) fn drop(&self, rng: &mut SplitMix64) -> Option<(Vec<Impact>, f64)> {
+    /// A drop and the ball that made it.
+    pub(crate) fn drop(&self, rng: &mut SplitMix64) -> Option<(Vec<Impact>, BallModel)> {
         let scatter: Vec<f64> = (2..self.impacts)
             .map(|_| self.bounce_std * rng.normal())
             .collect();
-        let (times, ln_e) = self.times(self.e.ln(), FIRST_S, &scatter)?;
+        let (times, _) = self.times(self.e.ln(), FIRST_S, &scatter)?;
+        let ball = self.ball.model(self.e.ln(), 0.5 * GRAVITY * FIRST_S)?;
         let impacts = times
             .into_iter()
             .map(|time_s| Impact::heard(time_s + self.time_std_s * rng.normal(), self.time_std_s));
-        Some((impacts.collect(), ln_e))
+        Some((impacts.collect(), ball))
     }
 
     /// The least standard deviation of an unbiased ln e: start, first flight and contact or drag unknown.

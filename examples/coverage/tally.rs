@@ -2,10 +2,11 @@
 
 use bounce_audio::fit::ModelKind;
 use bounce_audio::fit::model_selection::{Choice, Inputs, Selection, select};
+use bounce_audio::physics::{BallModel, Restitution};
 use bounce_audio::random::SplitMix64;
 
-use crate::ALIKE;
 use crate::cell::Cell;
+use crate::{ALIKE, GRAVITY};
 
 /// What came of the drops of a cell.
 #[derive(Debug, Default)]
@@ -26,17 +27,17 @@ impl Tally {
         let mut tally = Self::default();
         let inputs = Inputs::default();
         for i in 0..drops {
-            let Some((impacts, ln_e)) = cell.drop(&mut rng) else {
+            let Some((impacts, ball)) = cell.drop(&mut rng) else {
                 continue;
             };
             tally.drops += 1;
             if let Some(selection) = select(&impacts, &[], &inputs, cell.ball.choice()) {
-                tally.add(&selection, cell, ln_e);
+                tally.add(&selection, cell, truth(&ball, &selection));
             }
             if i % 10 == 0 {
                 tally.auto_drops += 1;
                 if let Some(auto) = select(&impacts, &[], &inputs, Choice::Auto) {
-                    tally.auto_held += usize::from(holds(&auto, ln_e));
+                    tally.auto_held += usize::from(holds(&auto, truth(&ball, &auto)));
                     tally.auto_right += usize::from(is_right(&auto, cell.ball.kind()));
                 }
             }
@@ -54,6 +55,12 @@ impl Tally {
             self.contact_held += usize::from(low <= contact_s && contact_s <= high);
         }
     }
+}
+
+/// ln e of the ball at the speed where it is stated.
+fn truth(ball: &BallModel, selection: &Selection) -> f64 {
+    let at_speed = 0.5 * GRAVITY * selection.fit.mean_speed_s;
+    ball.restitution(at_speed).map_or(f64::NAN, Restitution::ln)
 }
 
 fn holds(selection: &Selection, ln_e: f64) -> bool {

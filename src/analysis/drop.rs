@@ -178,9 +178,11 @@ pub(super) fn fit(
     let mut warnings = warnings::of_chain(stretch, &chain);
     warnings.extend(warnings::of_contact(settings.contact_time_s, timed));
     let ball = modelled.ball_model.as_ref();
+    let impacts = impacts(stretch, timed, ball, settings.gravity_m_per_s2);
+    warnings.extend(warnings::of_place(&modelled, &impacts));
     Ok(Measured {
         channel,
-        impacts: impacts(stretch, timed, ball, settings.gravity_m_per_s2),
+        impacts,
         evidence_nats: chain.evidence(),
         bounces: chain.heard(),
         rejected: chain.rejected.iter().map(rejected).collect(),

@@ -1,11 +1,12 @@
 //! Warnings about a result, each with its remedy.
 
+use super::model::Modelled;
 use super::stretch::Stretch;
 use crate::fit::Estimate;
 use crate::fit::flights::Flights;
 use crate::fit::total_time::{Missing, TotalTime, left_s};
 use crate::impact::{Impact, Status};
-use crate::report::{Candidate, Warning, WarningCode};
+use crate::report::{self, Candidate, Warning, WarningCode};
 use crate::sequence::Chain;
 
 /// Fewest impacts without a warning: fewer flights hardly distinguish a trend of e from chance. Convention.
@@ -18,6 +19,25 @@ const CLIPPED: f32 = 0.9999;
 const CLIPPED_SAMPLES: usize = 3;
 /// Least strength of an event, in nats, that counts as a transient that a person would notice. Convention.
 const NOTICEABLE: f64 = 30.0;
+
+/// That e lies beyond the e of each bounce, and why.
+pub(super) fn of_place(modelled: &Modelled, impacts: &[report::Impact]) -> Option<Warning> {
+    let e = modelled.restitution.as_ref()?.estimate;
+    e.interval95?;
+    let bounces = impacts.iter().filter_map(|i| i.bounce.restitution);
+    let (least, most) = bounces.fold((f64::INFINITY, 0.0_f64), |(least, most), e| {
+        (least.min(e), most.max(e))
+    });
+    if most <= 0.0 || (least..=most).contains(&e.value) {
+        return None;
+    }
+    let message = format!(
+        "e lies beyond that of each bounce, {least:.4} to {most:.4}: those are by the model {} alone, e is by all models, and with \
+         another contact or drag the same flights have other speeds. --mass and --diameter or --contact-time settle it",
+        modelled.model.selected
+    );
+    Some(Warning::new(WarningCode::BeyondBounces, message))
+}
 
 /// Sounds of the whole recording, for the warning where it has no drop.
 #[derive(Debug, Clone, Copy, Default)]

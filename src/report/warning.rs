@@ -79,6 +79,8 @@ words! {
         StrayTime = "stray_time",
         /// Another model explains the flights as well.
         ModelsAlike = "models_alike",
+        /// e lies beyond that of each bounce.
+        BeyondBounces = "beyond_bounces",
         /// The estimates of e disagree as the drag of the air makes them.
         AirDrag = "air_drag",
         /// They disagree as a wrong height makes them.
