@@ -117,7 +117,9 @@ fn main() {
     println!(
         "- holds e, holds C, auto holds: how often the 95 % interval of e, of the contact time, and of e by `auto` hold the truth."
     );
-    println!("- auto right: how often `auto` takes this model or one within {ALIKE} nats of it.");
+    println!(
+        "- auto right: how often `auto` takes this model or one within {ALIKE} nats of it; the viscoelastic one is none of its own."
+    );
     println!(
         "- spread: root mean square error of ln e; over stated; over the least that is possible with known σ_t and σ_e.\n"
     );
