@@ -8,6 +8,7 @@ mod bend;
 pub mod bounces;
 mod fitted;
 pub mod flights;
+mod found;
 mod grid;
 mod hypotheses;
 pub mod irregular;
