@@ -1,6 +1,6 @@
 //! One drop, made and listened to.
 
-use bounce_audio::report::Status;
+use bounce_audio::report::{Method, Status};
 use bounce_audio::synth::scene::{BounceScene, Scene, preset};
 use bounce_audio::synth::truth::DropTruth;
 use bounce_audio::synth::{Synthetic, render};
@@ -96,7 +96,7 @@ pub(crate) struct Heard {
     pub(crate) evidence_nats: Option<f64>,
     /// Its e.
     pub(crate) restitution: Option<f64>,
-    /// Whether its 95 % interval holds the true e.
+    /// Whether its 95 % interval holds the true e: the ball's, or that of the first impact where it is this that is told.
     pub(crate) held: bool,
 }
 
@@ -136,7 +136,12 @@ fn compare(made: &Synthetic, settings: &Settings) -> Heard {
     let times = times(drop);
     let estimate = drop.restitution.as_ref().map(|r| r.estimate);
     let interval = estimate.and_then(|e| e.interval95);
-    let e = regular(truth);
+    let method = drop.restitution.as_ref().map(|r| r.method);
+    let e = match method {
+        // That of the first impact, from which the ball's own strays as every bounce does.
+        Some(Method::FirstRebound) => truth.restitution_each[0],
+        _ => regular(truth),
+    };
     Heard {
         found: matched(drop, &onsets),
         made_up: times

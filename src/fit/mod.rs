@@ -26,10 +26,9 @@ mod solution;
 mod state;
 pub mod total_time;
 mod trial_law;
-mod unfitted;
+pub mod unfitted;
 
 pub use model_kind::{BallParameters, ModelKind};
-pub use unfitted::Unfitted;
 
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, StudentsT};

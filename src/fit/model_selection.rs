@@ -109,7 +109,8 @@ pub struct Selection {
 /// Evidence is the likelihood of the times with all parameters and the sizes of the noises integrated out over what is
 /// known of balls at large, so a parameter that buys nothing costs. All models have the same outliers, which are found
 /// under the likeliest, and state e at the same speed. The bounces called odd, by their numbers from 0 with an impact
-/// before and after each, have no say. None for fewer than three impacts.
+/// before and after each, have no say. None for fewer than three impacts, nor where a contact that is given is longer than the
+/// shortest interval.
 #[must_use]
 pub fn select(
     impacts: &[Impact],
@@ -117,6 +118,11 @@ pub fn select(
     inputs: &Inputs,
     choice: Choice,
 ) -> Option<Selection> {
+    let intervals = impacts.windows(2).map(|w| w[1].time_s - w[0].time_s);
+    let shortest_s = intervals.fold(f64::INFINITY, f64::min);
+    if inputs.contact_s.is_some_and(|c| c.value >= shortest_s) {
+        return None;
+    }
     fit_laws(impacts, odd, &laws(inputs, choice))
 }
 

@@ -15,9 +15,13 @@ const AROUND_S: f64 = 0.5;
 const QUIET_SHARE: f64 = 0.2;
 /// White noise added before solving, as a share of the power: without it a pure hum has no inverse.
 const REGULARISATION: f64 = 1e-9;
-/// Least noise as a share of full scale, so that a quiet recording is timed as a loud one is. Derived: a tenth of the
-/// quantization noise of 16 bits.
+/// Least noise as a share of the loudest sample, so that a recording without noise has a finite error, and one that is quiet
+/// is timed as a loud one is. Derived: a tenth of the quantization noise of 16 bits at full scale.
 const LEAST_NOISE: f64 = 1e-6;
+/// Frames begin this share of their length apart, so that the quiet is found wherever it lies among them (convention).
+const FRAME_STEP: f64 = 0.25;
+/// A time of the span is off by less than this, in seconds: the sound is loudest within it.
+const ANCHOR_S: f64 = 5e-3;
 
 /// `y[n] = (x[n] − Σ a_k·x[n−k]) / σ`, with unit variance where the recording is quiet.
 #[derive(Debug, Clone)]
@@ -30,7 +34,7 @@ impl Whitener {
     /// Learns the noise from the quietest frames from half a second before a span of the recording to half a second after.
     #[must_use]
     pub fn learn(sound: &Sound<'_>, span_s: (f64, f64)) -> Self {
-        let quiet = quiet_frames(sound, span_s);
+        let (quiet, peak) = quiet_frames(sound, span_s);
         let mut products = [[0.0; ORDER + 1]; ORDER + 1];
         let mut count = 0;
         for frame in &quiet {
@@ -40,7 +44,8 @@ impl Whitener {
         }
         let scale = 1.0 / real(count.max(1));
         products.iter_mut().flatten().for_each(|p| *p *= scale);
-        let least = REGULARISATION * products[0][0] + LEAST_NOISE * LEAST_NOISE;
+        let least =
+            REGULARISATION * products[0][0] + (LEAST_NOISE * peak).powi(2).max(f64::MIN_POSITIVE);
         for (lag, row) in products.iter_mut().enumerate() {
             row[lag] += least;
         }
@@ -119,13 +124,27 @@ impl<'a> Whitened<'a> {
     }
 }
 
-fn quiet_frames<'a>(sound: &Sound<'a>, span_s: (f64, f64)) -> Vec<&'a [f32]> {
-    let region = sound.between(span_s.0 - AROUND_S, span_s.1 + AROUND_S);
-    let frame = samples_in(FRAME_S, sound.sample_rate_hz).max(2 * ORDER);
-    let energy = |f: &[f32]| f.iter().map(|x| x * x).sum::<f32>();
+/// The quietest frames around a span, and the loudest sample there.
+///
+/// They lie at whole steps from the loudest samples at both ends of the span: so neither the phase of its times, nor silence
+/// before or after the recording, nor its gain, changes what is found.
+fn quiet_frames<'a>(sound: &Sound<'a>, span_s: (f64, f64)) -> (Vec<&'a [f32]>, f64) {
+    let rate = sound.sample_rate_hz;
+    let frame = samples_in(FRAME_S, rate).max(2 * ORDER);
+    let step = whole(FRAME_STEP * real(frame)).max(1);
+    let heard = heard(sound.samples);
+    let ends = [span_s.0, span_s.1].map(|time_s| loudest(sound, time_s));
+    let around = samples_in(AROUND_S, rate) / step;
+    // Whole frames that begin whole steps before the first anchor and reach as far behind the second.
+    let before = around.min((ends[0].saturating_sub(heard.start)) / step);
+    let first = ends[0].clamp(heard.start, heard.end) - before * step;
+    let last = (ends[1] + around * step).min(heard.end);
+    let energy = |f: &[f32]| f.iter().map(|x| f64::from(*x).powi(2)).sum::<f64>();
+    let region = sound.samples.get(first..last).unwrap_or_default();
+    let peak = region.iter().fold(0.0, |peak: f32, x| peak.max(x.abs()));
     // Digital silence says nothing of the noise.
-    let mut frames: Vec<(f32, &[f32])> = region
-        .chunks_exact(frame)
+    let mut frames: Vec<(f64, &[f32])> = (0..=region.len().saturating_sub(frame) / step)
+        .filter_map(|k| region.get(k * step..k * step + frame))
         .map(|f| (energy(f), f))
         .filter(|(e, _)| *e > 0.0)
         .collect();
@@ -134,7 +153,23 @@ fn quiet_frames<'a>(sound: &Sound<'a>, span_s: (f64, f64)) -> Vec<&'a [f32]> {
         .max(4)
         .min(frames.len());
     frames.truncate(keep);
-    frames.into_iter().map(|(_, f)| f).collect()
+    let frames = frames.into_iter().map(|(_, f)| f).collect();
+    (frames, f64::from(peak))
+}
+
+/// The samples from the first to the last that is not 0.
+fn heard(samples: &[f32]) -> std::ops::Range<usize> {
+    let sounds = |x: &f32| *x != 0.0;
+    let first = samples.iter().position(sounds).unwrap_or(samples.len());
+    first..samples.iter().rposition(sounds).map_or(first, |k| k + 1)
+}
+
+/// The loudest sample near a time.
+fn loudest(sound: &Sound<'_>, time_s: f64) -> usize {
+    let from = sound.sample_at(time_s - ANCHOR_S);
+    let near = sound.between(time_s - ANCHOR_S, time_s + ANCHOR_S);
+    let top = (0..near.len()).max_by(|&a, &b| near[a].abs().total_cmp(&near[b].abs()));
+    from + top.unwrap_or(0)
 }
 
 /// Adds `Σ_n x[n − i]·x[n − j]` over the samples that have their whole past in the frame.
@@ -224,6 +259,32 @@ mod tests {
                 (mean_product(lag) / mean_product(0)).abs() < 0.05,
                 "lag {lag}"
             );
+        }
+    }
+
+    #[test]
+    fn what_is_learnt_does_not_depend_on_silence_in_front_nor_gain_nor_the_phase_of_the_span() {
+        let mut rng = SplitMix64::new(7);
+        let (rate, mut y) = (48_000.0, 0.0);
+        #[expect(clippy::cast_possible_truncation, reason = "test noise")]
+        let noise: Vec<f32> = (0..96_000)
+            .map(|i| {
+                y = 0.9 * y + 0.01 * rng.normal();
+                let knock = if i == 40_000 || i == 60_000 { 0.8 } else { 0.0 };
+                (y + knock) as f32
+            })
+            .collect();
+        let span_s = (40_000.0 / rate, 60_000.0 / rate);
+        let learnt = Whitener::learn(&Sound::from_start(&noise, rate), span_s);
+        for zeros in [1, 100, 777, 3_001] {
+            let mut later = vec![0.0; zeros];
+            later.extend(noise.iter().map(|x| 0.25 * x));
+            // The detector's grid is a quarter of a millisecond.
+            let late_s = real(zeros) / rate + 0.2e-3;
+            let span_s = (span_s.0 + late_s, span_s.1 + late_s);
+            let again = Whitener::learn(&Sound::from_start(&later, rate), span_s);
+            assert_eq!(learnt.predictor, again.predictor, "{zeros}");
+            assert!((again.scale / learnt.scale - 4.0).abs() < 1e-9);
         }
     }
 }

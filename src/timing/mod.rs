@@ -2,9 +2,11 @@
 //!
 //! The recording is first [whitened](crate::signal::whiten), so that hum and rumble do not matter and the noise left is white. Then
 //! each impact is timed by a constant fraction of its own rise, which does not walk with loudness, or all
-//! are timed together (`joint`) by the sound that they have in common, which uses all of it.
+//! are timed together (`joint`) by the sound that they have in common, which uses all of it. Where they have little in common
+//! each is timed by its onset in several bands (`onset`).
 
 mod joint;
+mod onset;
 mod pair;
 
 use crate::impact::Impact;

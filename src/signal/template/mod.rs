@@ -41,8 +41,10 @@ pub(crate) struct Sample {
     pub contact_stretch: f64,
     /// Its sound, all others taken out.
     pub sound: Vec<f64>,
-    /// Variance of that, misfit included.
+    /// Variance of that, misfit included, over the weights.
     pub noise: Vec<f64>,
+    /// Weights, below 1 where more is heard than the impact.
+    pub weights: Vec<f64>,
 }
 
 impl Template {
@@ -140,27 +142,34 @@ impl Template {
     /// ```text
     /// S(t) minimises Σ_i w_i(t)·(x_i(t)/a_i − Σ_c u_iᶜ·S_c(t))²,   w_i(t) = a_i²/noise_i(t)
     /// ```
-    pub(crate) fn learn(
-        &mut self,
-        impacts: &[Sample],
-        contact_stretches: &[f64],
-        smoothing: usize,
-    ) {
+    pub(crate) fn learn_shape(&mut self, impacts: &[Sample], contact_stretches: &[f64]) {
         let length = impacts.first().map_or(0, |s| s.sound.len());
-        let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::weights).collect();
+        let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::information).collect();
         if self.components.len() == 1 {
             weighted_mean(impacts, &weights, &mut self.components[0][..length]);
         } else {
             weighted_fit(impacts, &weights, &mut self.components);
             self.learn_shapes(length, contact_stretches);
         }
+        self.learn_slopes(contact_stretches);
+    }
+
+    /// Learns how much impacts differ from the components, over as many samples as their sounds have; over all, its head too.
+    pub(crate) fn learn_misfit(
+        &mut self,
+        impacts: &[Sample],
+        contact_stretches: &[f64],
+        smoothing: usize,
+    ) {
+        let length = impacts.first().map_or(0, |s| s.sound.len());
+        let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::information).collect();
         let (misfit, noise) = self.left_over(impacts, &weights);
         self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
         self.noise[..length].copy_from_slice(&noise);
         if length == self.len() {
             self.measure(smoothing);
+            self.learn_slopes(contact_stretches);
         }
-        self.learn_slopes(contact_stretches);
     }
 
     /// The sound of each impact anew, up to where the components changed.
@@ -214,9 +223,9 @@ impl Template {
     ///
     /// The residual of an impact with the share h (leverage) in its own template is 1 − h of its difference.
     fn left_over(&self, impacts: &[Sample], weights: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
-        let power: f64 = impacts.iter().map(|s| s.amplitude * s.amplitude).sum();
         let all = sums(weights);
         let (mut misfit, mut noise) = (vec![0.0; all.len()], vec![0.0; all.len()]);
+        let mut powers = vec![f64::MIN_POSITIVE; all.len()];
         for (s, weights) in impacts.iter().zip(weights) {
             let square = s.amplitude * s.amplitude;
             let mut shape = vec![0.0; all.len()];
@@ -225,11 +234,15 @@ impl Template {
                 let share = weights[t] / all[t];
                 let left = s.sound[t] - s.amplitude * shape[t];
                 let left = left * left / (1.0 - share.min(MOST_SHARE));
-                misfit[t] += left - (s.noise[t] - square * self.misfit[t]);
+                let variance = s.noise[t] * s.weights[t];
+                // Each tells the misfit as well as its own noise lets it.
+                let weight = s.weights[t] * square / (variance * variance);
+                misfit[t] += weight * (left - (variance - square * self.misfit[t]));
+                powers[t] += weight * square;
                 noise[t] += share * share * left / square;
             }
         }
-        for v in &mut misfit {
+        for (v, power) in misfit.iter_mut().zip(powers) {
             *v = (*v / power).max(0.0);
         }
         (misfit, noise)
@@ -238,7 +251,7 @@ impl Template {
 
 impl Sample {
     /// `a²/noise`: the information of the impact on the template.
-    pub(crate) fn weights(&self) -> Vec<f64> {
+    pub(crate) fn information(&self) -> Vec<f64> {
         let square = self.amplitude * self.amplitude;
         self.noise.iter().map(|n| square / n).collect()
     }

@@ -1,23 +1,25 @@
-//! Alternating least squares: times given the template, then the template given the times.
+//! Alternating least squares: times given the template, then the template given the times, until nothing moves.
+//!
+//! Two loops stand in each other. In the [inner one](Joint::rest) what the sounds differ by, and what else is heard, is held,
+//! and times and template come to rest under it; the outer one learns it anew. Learnt in each round, it would feed on its own
+//! errors and never rest.
 
 use super::align::Aligned;
-use super::matched_search::{Search, Window, best_match};
-use super::normal_equations::NormalEquations;
 use super::standard_error::overdispersions;
-use super::start::Started;
-use super::{Place, Prior};
+use super::start::{Started, period};
+use super::{Place, Prior, usual_move};
 use crate::signal::correlate::Correlator;
-use crate::signal::interpolate::{KERNEL, shifted};
 use crate::signal::template::{Sample, Template};
 use crate::units::{real, samples_in};
 
 /// Smoothing of the misfit, either way, in seconds.
 const MISFIT_S: f64 = 0.1e-3;
-/// Farthest that a match moves in one step, in samples. Derived: beyond a sample the expansion in time does not hold.
-const STEP: f64 = 1.0;
-/// Rounds in which impacts may jump to a better match, and rounds of steps alone that follow.
-const SEARCHES: usize = 3;
-const ROUNDS: usize = 3;
+/// A match this far from the place before is another, in periods of the sound. Derived: steps find what is nearer than half
+/// of one, and a third leaves room for a template that is not yet right.
+const CYCLE: f64 = 0.33;
+/// Rounds in which what is held is learnt anew, at most. Most drops rest after 2 to 5; of dull sounds the faint ones that overlap
+/// go on by less than a standard error.
+const LIMIT: usize = 20;
 
 /// The impacts of a drop and their template, under refinement.
 #[derive(Debug)]
@@ -26,9 +28,15 @@ pub(super) struct Joint<'a> {
     pub priors: Vec<Prior>,
     pub places: Vec<Place>,
     pub template: Template,
-    /// Power of the interference at each impact, where it stood out of the last round's residual: knocks, voices, a hand.
-    pub interference: Vec<Vec<f64>>,
-    correlator: Correlator,
+    /// Variance of each sample of each head, as it is held.
+    pub noise: Vec<Vec<f64>>,
+    /// Weight of each of those samples, below 1 where more is heard than impacts and noise explain: knocks, voices, a hand.
+    pub weights: Vec<Vec<f64>>,
+    /// Variance of each match over that by independent samples.
+    pub overdispersions: Vec<f64>,
+    /// What the places are after the priors by, in the median, in samples; none where priors have no say but in a search.
+    pub guided: Option<f64>,
+    pub correlator: Correlator,
 }
 
 impl<'a> Joint<'a> {
@@ -38,63 +46,130 @@ impl<'a> Joint<'a> {
         let mut template = aligned.template;
         let none = vec![0.0; template.len()];
         template.components.resize(components, none);
+        let count = aligned.places.len();
         Self {
             started,
-            interference: vec![Vec::new(); aligned.places.len()],
+            noise: vec![Vec::new(); count],
+            weights: vec![Vec::new(); count],
+            overdispersions: vec![1.0; count],
             priors: aligned.priors,
             places: aligned.places,
             template,
+            guided: (components == 1).then_some(0.0),
             correlator: Correlator::default(),
         }
     }
 
-    /// Refines times and template in turn, for this number of rounds.
-    pub(super) fn alternate(&mut self, rounds: usize) {
-        for _ in 0..rounds {
-            let heads: Vec<Sample> = (0..self.places.len()).map(|i| self.step(i)).collect();
-            self.learn_heads(&heads);
+    /// Refines times and template until they rest, without jumps.
+    pub(super) fn settle(&mut self) {
+        for _ in 0..LIMIT {
+            self.hold();
+            let before = self.now();
+            self.rest();
+            self.learn_misfit();
+            if self.rests_since(&before) {
+                break;
+            }
         }
     }
 
-    /// The usual rounds: first those in which impacts may jump. Gives the ambiguity of each: the standard error by rival places
+    /// The same with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
     /// that match nearly as well.
-    pub(super) fn search_and_alternate(&mut self) -> Vec<f64> {
-        let count = self.places.len();
-        let mut ambiguities = vec![0.0; count];
-        for round in 0..SEARCHES {
-            // Likelihoods count samples as independent, which overdispersion corrects; in the first round it is unknown.
-            let overdispersions = match round {
-                0 => vec![1.0; count],
-                _ => overdispersions(self),
-            };
-            let heads = (0..count).map(|i| {
-                if let Some(ambiguity) = self.search(i, overdispersions[i]) {
-                    ambiguities[i] = ambiguity;
-                }
-                self.step(i)
-            });
-            let heads: Vec<Sample> = heads.collect();
-            self.learn_heads(&heads);
+    pub(super) fn search_and_settle(&mut self) -> Vec<f64> {
+        let mut ambiguities = vec![0.0; self.places.len()];
+        for _ in 0..LIMIT {
+            self.hold();
+            let before = self.now();
+            let jumped = self.jump(&mut ambiguities);
+            self.rest();
+            self.learn_misfit();
+            if !jumped || self.rests_since(&before) {
+                break;
+            }
         }
         self.learn_whole();
-        self.alternate(ROUNDS);
+        for _ in 0..LIMIT {
+            self.settle();
+            if !self.jump(&mut ambiguities) {
+                break;
+            }
+        }
         ambiguities
     }
 
-    /// Learns the head of the template, and the interference that it leaves.
-    fn learn_heads(&mut self, heads: &[Sample]) {
-        self.learn(heads);
-        let interference = heads
-            .iter()
-            .enumerate()
-            .map(|(i, h)| self.interference_of(i, h));
-        self.interference = interference.collect();
+    /// Moves each impact to its best match where that is another than it has; whether there was one.
+    fn jump(&mut self, ambiguities: &mut [f64]) -> bool {
+        let cycle = CYCLE * period(&self.template.mean()[..self.template.head]);
+        let mut jumped = false;
+        for (i, known) in ambiguities.iter_mut().enumerate() {
+            let Some((place, ambiguity)) = self.searched(i) else {
+                continue;
+            };
+            *known = ambiguity;
+            if (place.position - self.places[i].position).abs() > cycle {
+                self.places[i] = place;
+                jumped = true;
+            }
+        }
+        jumped
     }
 
-    fn learn(&mut self, samples: &[Sample]) {
+    /// Holds what the impacts differ by, and what else is heard, as they are known now.
+    fn hold(&mut self) {
+        let head = self.template.head;
+        for i in 0..self.places.len() {
+            self.noise[i] = self.noise(self.begin(i), head, None);
+            self.weights[i] = vec![1.0; head];
+        }
+        let heads = self.heads();
+        for (i, h) in heads.iter().enumerate() {
+            self.weights[i] = self.weights_of(i, h);
+            for (n, w) in self.noise[i].iter_mut().zip(&self.weights[i]) {
+                *n /= w;
+            }
+        }
+        self.overdispersions = overdispersions(self);
+        self.guided = self.guided.map(|_| usual_move(&self.priors, &self.places));
+    }
+
+    /// Share of the energy of the sounds that is not in their template, learnt where they are until it rests.
+    pub(super) fn unlike(&mut self) -> f64 {
+        let mut known = 0.0;
+        for _ in 0..LIMIT {
+            self.hold();
+            self.learn_misfit();
+            let now = self.unlike_now();
+            if (now - known).abs() < UNLIKE_REST {
+                break;
+            }
+            known = now;
+        }
+        self.unlike_now()
+    }
+
+    fn unlike_now(&self) -> f64 {
+        let head = self.template.head;
+        let energy: f64 = self.template.mean()[..head].iter().map(|s| s * s).sum();
+        let misfit: f64 = self.template.misfit[..head].iter().sum();
+        misfit / (misfit + energy)
+    }
+
+    /// The heads of all impacts.
+    pub(super) fn heads(&self) -> Vec<Sample> {
+        let each = (0..self.places.len()).map(|i| self.sample(i, self.template.head));
+        each.collect()
+    }
+
+    /// Learns what the impacts differ by from their heads.
+    fn learn_misfit(&mut self) {
+        let heads = self.heads();
+        self.learn_misfit_of(&heads);
+    }
+
+    fn learn_misfit_of(&mut self, samples: &[Sample]) {
         let smoothing = samples_in(MISFIT_S, self.started.rate);
-        self.template
-            .learn(samples, &self.started.contact_stretches, smoothing);
+        let stretches = &self.started.contact_stretches;
+        self.template.learn_misfit(samples, stretches, smoothing);
     }
 
     /// Learns the whole template from those impacts that sound alone, or from all if they are too few.
@@ -112,65 +187,15 @@ impl<'a> Joint<'a> {
         if of.len() < FEWEST_ALONE {
             of = (0..self.places.len()).collect();
         }
-        let samples: Vec<Sample> = of.into_iter().map(|i| self.sample(i, length)).collect();
-        self.learn(&samples);
-    }
-
-    /// Moves an impact to its best match within its reach, the others taken out; gives its ambiguity if there is a match.
-    fn search(&mut self, i: usize, overdispersion: f64) -> Option<f64> {
-        let prior = self.priors[i];
-        let (head, before) = (self.template.head, real(self.template.before));
-        let reach = prior.reach() + KERNEL;
-        let begin = prior.position.round() - before - real(reach);
-        let mut sound = shifted(&self.started.sound, begin, head + 2 * reach);
-        self.take_out_others(i, begin, &mut sound);
-        let window = Window {
-            noise: &self.noise(begin, sound.len(), Some(i)),
-            sound: &sound,
-        };
-        let search = Search {
-            prior: prior.from(begin).from(before),
-            reach,
-            overdispersion,
-        };
-        let shape = &self.template.shape(i)[..head];
-        let found = best_match(&mut self.correlator, window, shape, search)?;
-        self.places[i] = Place {
-            position: begin + found.position + before,
-            amplitude: found.amplitude,
-        };
-        Some(found.ambiguity)
-    }
-
-    /// One step towards the best amplitude and time of an impact, by weighted least squares; gives its sound as it then
-    /// stands.
-    ///
-    /// # Formula
-    /// `x = a·s − a·δ·ds/dt` with weights `1/noise`, solved for a and δ.
-    fn step(&mut self, i: usize) -> Sample {
-        let head = self.template.head;
-        let begin = self.begin(i) - real(KERNEL);
-        let mut wide = shifted(&self.started.sound, begin, head + 2 * KERNEL);
-        self.take_out_others(i, begin, &mut wide);
-        let noise = self.noise_and_interference(i, head);
-        let (shape, slopes) = (self.template.shape(i), self.template.slopes(i));
-        let normal = NormalEquations::of(&wide[KERNEL..KERNEL + head], &noise, shape, slopes);
-        let place = &mut self.places[i];
-        let (amplitude, moved, _) = normal.solve(place.amplitude);
-        place.amplitude = amplitude.max(LEAST_AMPLITUDE * place.amplitude);
-        let moved = moved.clamp(-STEP, STEP);
-        place.position += moved;
-        Sample {
-            amplitude: place.amplitude,
-            contact_stretch: self.started.contact_stretches[i],
-            sound: shifted(&wide, real(KERNEL) + moved, head),
-            noise,
-        }
+        let samples: Vec<Sample> = of.iter().map(|&i| self.sample(i, length)).collect();
+        self.template
+            .learn_shape(&samples, &self.started.contact_stretches);
+        self.learn_misfit_of(&samples);
     }
 }
 
+/// The share of sounds that is unlike rests once it moves by less than this (convention).
+const UNLIKE_REST: f64 = 0.01;
+
 /// Fewest impacts that the whole template is learnt from alone.
 const FEWEST_ALONE: usize = 4;
-
-/// Least share that an amplitude falls to in one step, so that it never vanishes or changes its sign.
-const LEAST_AMPLITUDE: f64 = 0.1;

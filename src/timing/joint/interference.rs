@@ -6,30 +6,26 @@ use crate::signal::smooth::smoothed;
 use crate::signal::template::Sample;
 use crate::units::{real, samples_in, whole};
 
-/// Interference is measured over this time either way, in seconds, and stands out by this factor.
-const INTERFERENCE_S: f64 = 1e-3;
-const INTERFERENCE_RATIO: f64 = 4.0;
+/// The power that is left is judged over this time either way, in seconds, and stands out by about this factor: of the few
+/// independent values in that time the mean is seldom twice too large by chance.
+const JUDGED_S: f64 = 1e-3;
+const STANDS_OUT: f64 = 4.0;
 /// Variance of samples that were not recorded.
 const UNKNOWN: f64 = 1e30;
 
 impl Joint<'_> {
-    /// The residual power in the sound of an impact, where it stands out of noise and misfit; 0 elsewhere.
-    pub(super) fn interference_of(&self, i: usize, head: &Sample) -> Vec<f64> {
-        let reach = samples_in(INTERFERENCE_S, self.started.rate);
+    /// Weights of the samples of an impact: 1 where the residual is as large as it should be, less where it is larger.
+    ///
+    /// # Formula
+    /// `1/w = 1 + z·z²/(z² + z₀²)` for the mean z of r²/V around the sample: what stands out is noise of its power.
+    pub(super) fn weights_of(&self, i: usize, head: &Sample) -> Vec<f64> {
+        let reach = samples_in(JUDGED_S, self.started.rate);
         let shape = self.template.shape(i);
-        let left = head
-            .sound
-            .iter()
-            .zip(shape)
-            .map(|(x, s)| (x - head.amplitude * s).powi(2));
-        let known = smoothed(&self.noise(self.begin(i), head.sound.len(), None), reach);
-        let mut interference = smoothed(&left.collect::<Vec<f64>>(), reach);
-        for (power, known) in interference.iter_mut().zip(known) {
-            if *power < INTERFERENCE_RATIO * known {
-                *power = 0.0;
-            }
-        }
-        interference
+        let left = head.sound.iter().zip(shape).zip(&head.noise);
+        let left = left.map(|((x, s), n)| (x - head.amplitude * s).powi(2) / n);
+        let means = smoothed(&left.collect::<Vec<f64>>(), reach);
+        let weight = |z: f64| (1.0 + z.powi(3) / (z * z + STANDS_OUT * STANDS_OUT)).recip();
+        means.into_iter().map(weight).collect()
     }
 
     /// Begin of the window of an impact, in samples of the stretch.
@@ -111,25 +107,24 @@ impl Joint<'_> {
         noise
     }
 
-    /// Noise at the samples of an impact, interference included.
-    pub(super) fn noise_and_interference(&self, i: usize, length: usize) -> Vec<f64> {
-        let mut noise = self.noise(self.begin(i), length, None);
-        for (n, k) in noise.iter_mut().zip(&self.interference[i]) {
-            *n += k;
-        }
-        noise
-    }
-
-    /// The sound of an impact as it stands, the others taken out.
+    /// The sound of an impact as it stands, the others taken out, with the noise that is held for its head.
     pub(super) fn sample(&self, i: usize, length: usize) -> Sample {
         let begin = self.begin(i);
         let mut sound = shifted(&self.started.sound, begin, length);
         self.take_out_others(i, begin, &mut sound);
+        let held = self.noise[i].len().min(length);
+        let mut noise = self.noise[i][..held].to_vec();
+        if held < length {
+            noise.extend_from_slice(&self.noise(begin, length, None)[held..]);
+        }
+        let mut weights = self.weights[i].clone();
+        weights.resize(length, 1.0);
         Sample {
             amplitude: self.places[i].amplitude,
             contact_stretch: self.started.contact_stretches[i],
             sound,
-            noise: self.noise_and_interference(i, length),
+            noise,
+            weights,
         }
     }
 }

@@ -13,6 +13,9 @@
 //! [time walk](time_walk). The leading edge of the sound is the same however long the contact lasts and reveals it; S₁, S₂
 //! with the contact stretch `u = (v/v₁)^(−1/5)` less its mean (Hertz) are used in that case alone.
 //!
+//! Where most of the sounds is not in common, as in most rooms and of most balls, no template times them: they are timed by
+//! where they begin, each by itself ([`onset`]).
+//!
 //! # Phases
 //! [`Started`] holds the sound and the priors before any impact is matched, [`Aligned`] the impacts in their first
 //! alignment, [`Joint`](alternate::Joint) refines template and times in turn, impact after impact, and [`Corrected`] holds
@@ -24,12 +27,15 @@ mod interference;
 mod leading_edge;
 mod matched_search;
 mod normal_equations;
+mod rest;
 mod standard_error;
 mod start;
+mod step;
 #[cfg(test)]
 mod tests;
 mod time_walk;
 
+use super::onset;
 use crate::impact::Impact;
 use crate::signal::sound::Sound;
 use crate::signal::template::Template;
@@ -37,6 +43,7 @@ use crate::signal::whiten::Whitened;
 use crate::statistics::upper_median;
 use crate::units::{real, whole};
 use align::Aligned;
+use alternate::Joint;
 use start::Started;
 use time_walk::Corrected;
 
@@ -49,11 +56,16 @@ const LEAD_S: f64 = 0.25;
 /// The prior on a time reaches this many standard deviations.
 const PRIOR_REACH: f64 = 4.0;
 
+/// Sounds are timed together where no more than this share of their energy is not in their template. Derived: where most of it
+/// is their own, what matches best is not where they began. Drops are far from it on either side: in the suite, and in
+/// recordings, 0 to 0.3 and 0.6 to 1.
+const UNLIKE: f64 = 0.5;
+
 /// Expected position of an impact, in samples of the sound, and its standard deviation.
 #[derive(Debug, Clone, Copy)]
-struct Prior {
-    position: f64,
-    std: f64,
+pub(super) struct Prior {
+    pub position: f64,
+    pub std: f64,
 }
 
 impl Prior {
@@ -63,7 +75,7 @@ impl Prior {
     }
 
     /// The same, counted from another sample.
-    fn from(self, begin: f64) -> Self {
+    pub(super) fn from(self, begin: f64) -> Self {
         Self {
             position: self.position - begin,
             ..self
@@ -88,12 +100,25 @@ struct Place {
     amplitude: f64,
 }
 
-/// Times of the impacts from coarse times in ascending order, and the template that they were found by; an impact that does not
-/// resemble the others keeps the detector's time. None if there are fewer than three.
+/// Times of the impacts from coarse times in ascending order, and the template that they have in common; an impact that does
+/// not resemble the others keeps the detector's time, and where most do not, all are timed by their [onsets](onset). None if
+/// there are fewer than three.
 pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<Impact>, Template)> {
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
-    let corrected = time_walk::correct(&started, aligned);
+    let mut joint = Joint::of(&started, aligned.clone(), 1);
+    if joint.unlike() > UNLIKE {
+        let onsets = onset::onsets(&started.sound, started.rate, &started.priors);
+        let first = real(started.first);
+        let begins = |(onset, &coarse): (&Prior, &Impact)| Impact {
+            time_s: whitened.sound().time_s(first + onset.position),
+            std_s: onset.std / started.rate,
+            ..coarse
+        };
+        let timed = onsets.iter().zip(coarse).map(begins).collect();
+        return Some((timed, joint.template));
+    }
+    let corrected = time_walk::correct(joint, &aligned);
     let timed = timed(whitened.sound(), coarse, &started, &corrected);
     Some((timed, corrected.joint.template))
 }

@@ -56,7 +56,7 @@ fn heads(joint: &Joint<'_>) -> Vec<Sample> {
 
 /// Standard errors of all impacts, by independent samples and by blocks.
 fn error_pairs(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
-    let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
+    let weights = sums(&samples.iter().map(Sample::information).collect::<Vec<_>>());
     let template = &joint.template;
     let each = samples.iter().enumerate();
     each.map(|(i, s)| errors(s, template.shape(i), template.slopes(i), &weights))
@@ -118,11 +118,11 @@ const MOST_EXCESS: f64 = 1e4;
 /// Variance of the weighted mean of all sounds at each sample by white noise of variance 1 in each, `Σ w²/a² / (Σ w)²`.
 /// Differences between impacts add to it, but as waves as long as their own.
 fn mean_variances(samples: &[Sample]) -> Vec<f64> {
-    let weights = sums(&samples.iter().map(Sample::weights).collect::<Vec<_>>());
+    let weights = sums(&samples.iter().map(Sample::information).collect::<Vec<_>>());
     let mut variances = vec![0.0; weights.len()];
     for sample in samples {
         let scale = sample.amplitude.powi(-2);
-        for ((v, w), all) in variances.iter_mut().zip(sample.weights()).zip(&weights) {
+        for ((v, w), all) in variances.iter_mut().zip(sample.information()).zip(&weights) {
             *v += scale * (w / all).powi(2);
         }
     }

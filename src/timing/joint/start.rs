@@ -142,10 +142,14 @@ fn longest(flights: &[f64], rate: f64, before: usize) -> usize {
 
 /// Standard deviation of the detector's time of a sound like this, in samples.
 fn jitter(sound: &[f64], rate: f64) -> f64 {
+    (JITTER_PERIODS * period(sound)).clamp(JITTER_S.0 * rate, JITTER_S.1 * rate)
+}
+
+/// Mean period of a sound in samples: that of a sine with its energy and the energy of its changes.
+pub(super) fn period(sound: &[f64]) -> f64 {
     let energy: f64 = sound.iter().map(|x| x * x).sum();
     let change: f64 = sound.windows(2).map(|w| (w[1] - w[0]).powi(2)).sum();
-    let period = std::f64::consts::TAU * (energy / change.max(f64::MIN_POSITIVE)).sqrt();
-    (JITTER_PERIODS * period).clamp(JITTER_S.0 * rate, JITTER_S.1 * rate)
+    std::f64::consts::TAU * (energy / change.max(f64::MIN_POSITIVE)).sqrt()
 }
 
 /// Contact stretches `(v/v₁)^(−1/5)` less their mean, an impact's speed being that of the flight before it; the first is as

@@ -85,7 +85,11 @@ fn seen(times_s: &[f64]) -> Vec<Impact> {
 }
 
 fn errors_in(samples: &[f32], onsets_s: &[f64]) -> Vec<(f64, f64)> {
-    let mut rng = SplitMix64::new(4);
+    errors_from(samples, onsets_s, 4)
+}
+
+fn errors_from(samples: &[f32], onsets_s: &[f64], seed: u64) -> Vec<(f64, f64)> {
+    let mut rng = SplitMix64::new(seed);
     let coarse: Vec<f64> = onsets_s
         .iter()
         .map(|t| t + 3e-4 * (2.0 * rng.uniform() - 1.0))
@@ -211,5 +215,58 @@ fn an_impact_unlike_the_others_keeps_the_detectors_time_and_says_so() {
         assert!(*std < 0.2 * stds[5], "impact {i} suffers: {std} s");
     }
     let moved = |i: usize| timed[i].time_s - onsets_s[i];
-    assert!((moved(5) - moved(4)).abs() < stds[5]);
+    assert!(
+        (moved(5) - moved(4)).abs() < stds[5],
+        "{} {} ± {}",
+        moved(5),
+        moved(4),
+        stds[5]
+    );
+}
+
+#[test]
+fn times_do_not_depend_on_where_the_detector_saw_the_impacts() {
+    let click = Ball {
+        contact_s: 1e-4,
+        hertz: false,
+        modes_hz: [5_200.0, 9_700.0],
+        decay_s: 5e-3,
+    };
+    let onsets_s = onsets(30, 0.25, 0.89);
+    let samples = click.recorded(&onsets_s, 3);
+    let [one, other] = [4, 5].map(|seed| errors_from(&samples, &onsets_s, seed));
+    let (mut sum, mut weight) = (0.0, 0.0);
+    for ((a, std), (b, _)) in one.iter().zip(&other) {
+        sum += (b - a) / (std * std);
+        weight += 1.0 / (std * std);
+    }
+    for (i, ((a, std), (b, _))) in one.iter().zip(&other).enumerate() {
+        let moved = b - a - sum / weight;
+        // Interpolation between samples is exact to some ten thousandths of one.
+        assert!(
+            moved.abs() < 0.1 * std + 1e-2,
+            "impact {i}: {moved} ± {std} µs"
+        );
+    }
+}
+
+#[test]
+fn impacts_at_rest_stay_where_they_are() {
+    let click = Ball {
+        contact_s: 1e-4,
+        hertz: false,
+        modes_hz: [5_200.0, 9_700.0],
+        decay_s: 5e-3,
+    };
+    let onsets_s = onsets(30, 0.25, 0.89);
+    let samples = click.recorded(&onsets_s, 3);
+    let span_s = (onsets_s[0], onsets_s[29]);
+    let sound = Whitened::around(Sound::from_start(&samples, RATE), span_s);
+    let started = Started::of(&sound, &seen(&onsets_s)).unwrap();
+    let mut joint = Joint::of(&started, Aligned::of(&started).unwrap(), 1);
+    assert!(joint.unlike() < UNLIKE);
+    joint.search_and_settle();
+    let before = joint.now();
+    joint.settle();
+    assert!(joint.rests_since(&before));
 }

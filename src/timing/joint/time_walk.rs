@@ -64,18 +64,16 @@ const SHARES: [f64; 3] = [1.0, 0.8, 0.6];
 /// Standard deviations by which the edges used stand out: those of all impacts first, then the clear ones alone, as faint
 /// ones may match at a wrong crest.
 const CLEAR: [f64; 2] = [f64::NEG_INFINITY, 10.0];
-/// Standard errors by which a time walk differs from 0 at least.
+/// Standard errors by which a time walk differs from 0 at least …
 const SIGNIFICANT: f64 = 4.0;
+/// … and by which one is hinted at where all sounds were taken to be alike, so that the dearer template is tried.
+const HINT: f64 = 2.0;
 /// Least scatter of the edges of single impacts, in seconds: modes do not begin quite alike.
 const SCATTER_S: f64 = 3e-6;
 /// Robust averaging ends once the curve moves by no more than this share of its own standard error (convention) …
 const REST: f64 = 0.05;
 /// … or after this number of rounds: five times the most seen, on the suite and on real recordings.
 const LIMIT: usize = 100;
-
-/// Rounds of alternation before a time walk is fitted, and after one is found.
-const FIRST_ROUNDS: usize = 3;
-const MORE_ROUNDS: usize = 5;
 
 /// The impacts refined, with their correction for time walk.
 #[derive(Debug)]
@@ -87,22 +85,30 @@ pub(super) struct Corrected<'a> {
     pub ambiguities: Vec<f64>,
 }
 
-/// Refines all times, and corrects them for time walk if they have any.
-pub(super) fn correct(started: &Started, aligned: Aligned) -> Corrected<'_> {
-    if let Some((joint, walk)) = with_walk(started, &aligned) {
-        return Corrected {
-            ambiguities: vec![0.0; joint.places.len()],
-            joint,
-            walk,
-        };
-    }
-    let mut joint = Joint::of(started, aligned, 1);
-    let ambiguities = joint.search_and_alternate();
-    Corrected {
+/// Refines the times of impacts as they are aligned, and corrects them for time walk if they have any. It is hinted at by their
+/// alignment, or once they rest.
+pub(super) fn correct<'a>(mut joint: Joint<'a>, aligned: &Aligned) -> Corrected<'a> {
+    let started = joint.started;
+    let hinted = walk(&joint, HINT).is_some();
+    let early = hinted.then(|| with_walk(started, aligned)).flatten();
+    let corrected = |(joint, walk): (Joint<'a>, TimeWalk)| Corrected {
+        ambiguities: vec![0.0; joint.places.len()],
         joint,
-        walk: TimeWalk::default(),
-        ambiguities,
+        walk,
+    };
+    if let Some(early) = early {
+        return corrected(early);
     }
+    let ambiguities = joint.search_and_settle();
+    let late = (!hinted && walk(&joint, HINT).is_some()).then(|| with_walk(started, aligned));
+    late.flatten().map_or_else(
+        || Corrected {
+            joint,
+            walk: TimeWalk::default(),
+            ambiguities,
+        },
+        corrected,
+    )
 }
 
 /// The impacts refined by a template that depends on the contact stretch, and their time walk; none if it is not significant.
@@ -114,26 +120,30 @@ fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, 
     let more = [FEWEST_LINEAR, FEWEST_SQUARE];
     let components = 1 + more.iter().filter(|&&n| count >= n).count();
     let mut joint = Joint::of(started, aligned.clone(), components);
-    joint.alternate(FIRST_ROUNDS);
-    significant_walk(&joint)?;
     // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it.
-    joint.alternate(MORE_ROUNDS);
-    let walk = significant_walk(&joint)?;
+    joint.settle();
+    let walk = walk(&joint, SIGNIFICANT)?;
     Some((joint, walk))
 }
 
-/// The time walk, if slow impacts match significantly late by a leading edge, of all impacts or of the clear ones.
-fn significant_walk(joint: &Joint<'_>) -> Option<TimeWalk> {
+/// The time walk, if slow impacts match late by so many standard errors by a leading edge, of all impacts or of the clear
+/// ones.
+fn walk(joint: &Joint<'_>, significant: f64) -> Option<TimeWalk> {
     let by = |clear| {
         let mut pairs = SHARES.windows(2);
-        pairs.find_map(|pair| walk_by_edges(joint, clear, pair))
+        pairs.find_map(|pair| walk_by_edges(joint, clear, pair, significant))
     };
     CLEAR.into_iter().find_map(by)
 }
 
 /// The time walk by the edges that end at the shorter of two shares, of impacts that stand out by `clear`; none where it is
 /// not significant.
-fn walk_by_edges(joint: &Joint<'_>, clear: f64, shares: &[f64]) -> Option<TimeWalk> {
+fn walk_by_edges(
+    joint: &Joint<'_>,
+    clear: f64,
+    shares: &[f64],
+    significant: f64,
+) -> Option<TimeWalk> {
     let &[longer, shorter] = shares else {
         return None;
     };
@@ -147,7 +157,7 @@ fn walk_by_edges(joint: &Joint<'_>, clear: f64, shares: &[f64]) -> Option<TimeWa
     let stretches = known.filter_map(|(&u, place)| place.map(|_| u));
     let range = stretches.fold((0.0_f64, 0.0_f64), |(a, b), u| (a.min(u), b.max(u)));
     let (shift, std) = walk.whole(range);
-    (shift < -SIGNIFICANT * std).then_some(walk)
+    (shift < -significant * std).then_some(walk)
 }
 
 /// Position of the leading edge less that of the match, as a function of contact stretch, by robust least squares.

@@ -1,0 +1,141 @@
+//! The inner loop of the alternation, and when it rests.
+
+use super::Place;
+use super::alternate::Joint;
+use super::step::{Moved, STEP, Step};
+use crate::signal::template::Sample;
+use crate::signal::template::average::factors;
+
+/// An impact rests once it moves by no more than this share of its standard error, against the others: a loud one, which makes
+/// most of its own template, has ten such steps to go (convention) …
+const REST: f64 = 0.02;
+/// … and what is held is learnt anew until none moves by more than this share in all, and until no standard error changes by
+/// more than this share of itself (convention).
+const HELD_REST: f64 = 0.2;
+const STD_REST: f64 = 0.3;
+/// Rounds of the inner loop at most, which three of the suite's drops reach at their faint ends. Without it all others
+/// rest after 5 to 40.
+const LIMIT: usize = 100;
+/// A step back by this share of the one before has overshot: steps of that impact are halved (convention).
+const OVERSHOT: f64 = 0.7;
+/// Moves are steady where their cosine with those before is at least this, and they shrink by no more than the first share;
+/// a share above the second is taken as that (convention).
+const STEADY: f64 = 0.9;
+const SHARES: (f64, f64) = (0.5, 0.95);
+
+impl Joint<'_> {
+    /// Times and template in turn until they rest.
+    ///
+    /// Where all moves are about the same share r of those of the round before, the rest of the way is
+    /// `r + r² + … = r/(1 − r)` of the last ones (Aitken), and is gone at once.
+    pub(super) fn rest(&mut self) {
+        let count = self.places.len();
+        let mut before: Option<Vec<Moved>> = None;
+        let (mut last, mut gains) = (vec![0.0; count], vec![1.0; count]);
+        for _ in 0..LIMIT {
+            let steps: Vec<Step> = (0..count).map(|i| self.step(i, gains[i])).collect();
+            for ((gain, last), step) in gains.iter_mut().zip(&mut last).zip(&steps) {
+                let by = step.moved.by;
+                if by * *last < 0.0 && by.abs() > OVERSHOT * last.abs() {
+                    *gain *= 0.5;
+                }
+                *last = by;
+            }
+            let (heads, moves): (Vec<Sample>, Vec<Moved>) =
+                steps.into_iter().map(|s| (s.sample, s.moved)).unzip();
+            let stretches = &self.started.contact_stretches;
+            self.template.learn_shape(&heads, stretches);
+            if self.greatest_move(&moves) < REST {
+                break;
+            }
+            let share = before.as_ref().and_then(|b| steady_share(b, &moves));
+            if let Some(share) = share {
+                self.go_on(&moves, share);
+            }
+            before = share.is_none().then_some(moves);
+        }
+    }
+
+    /// Goes the rest of the way whose steps each are a share of the one before.
+    fn go_on(&mut self, moves: &[Moved], share: f64) {
+        for (place, moved) in self.places.iter_mut().zip(moves) {
+            place.position += (moved.by * share / (1.0 - share)).clamp(-STEP, STEP);
+        }
+    }
+
+    /// The places as they are, with their standard errors.
+    pub(super) fn now(&self) -> Vec<(Place, f64)> {
+        let each = self.places.iter().enumerate();
+        each.map(|(i, place)| (*place, self.std(i))).collect()
+    }
+
+    /// Whether since then nothing moved by much, against the others, and no standard error changed by much.
+    pub(super) fn rests_since(&self, before: &[(Place, f64)]) -> bool {
+        let now = self.now();
+        let pairs = now.iter().zip(before);
+        let moves = pairs.clone().map(|((now, std), (then, _))| Moved {
+            by: now.position - then.position,
+            std: *std,
+        });
+        let known = pairs.map(|((_, now), (_, then))| (now / then).ln().abs());
+        known.fold(0.0, f64::max) < STD_REST
+            && self.greatest_move(&moves.collect::<Vec<Moved>>()) < HELD_REST
+    }
+
+    /// The greatest move, in standard errors, beyond what all have in common: as many terms in the contact stretch as the
+    /// template has components, which times and template leave undetermined together.
+    fn greatest_move(&self, moves: &[Moved]) -> f64 {
+        let stretches = &self.started.contact_stretches;
+        let terms = self.template.components.len();
+        let (mut moments, mut right) = ([0.0; 5], [0.0; 3]);
+        for (moved, u) in moves.iter().zip(stretches) {
+            let mut power = moved.std.powi(-2);
+            for (k, moment) in moments.iter_mut().enumerate() {
+                *moment += power;
+                if k < terms {
+                    right[k] += power * moved.by;
+                }
+                power *= u;
+            }
+        }
+        let [level, slope, bend] = factors(&moments, terms).map_or([0.0; 3], |f| f.solve(&right));
+        let beyond = moves.iter().zip(stretches).map(|(moved, u)| {
+            let common = level + u * (slope + u * bend);
+            (moved.by - common).abs() / moved.std
+        });
+        beyond.fold(0.0, f64::max)
+    }
+}
+
+/// The share that moves are of those before, where they are steady.
+fn steady_share(before: &[Moved], now: &[Moved]) -> Option<f64> {
+    let dot = |a: &[Moved], b: &[Moved]| -> f64 {
+        let pairs = a.iter().zip(b);
+        pairs.map(|(a, b)| a.by * b.by / (b.std * b.std)).sum()
+    };
+    let (same, own, other) = (dot(now, before), dot(now, now), dot(before, before));
+    let share = same / other;
+    let steady = same > STEADY * (own * other).sqrt() && share > SHARES.0;
+    steady.then_some(share.min(SHARES.1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn moves(by: &[f64]) -> Vec<Moved> {
+        by.iter().map(|&by| Moved { by, std: 2.0 }).collect()
+    }
+
+    #[test]
+    fn steady_moves_are_told_from_those_that_turn() {
+        let before = moves(&[1.0, -0.5, 0.2]);
+        let share = steady_share(&before, &moves(&[0.8, -0.4, 0.16])).unwrap();
+        assert!((share - 0.8).abs() < 1e-12, "{share}");
+        assert_eq!(steady_share(&before, &moves(&[-0.8, 0.4, -0.16])), None);
+        assert_eq!(steady_share(&before, &moves(&[0.3, -0.15, 0.06])), None);
+        // Moves that do not shrink would go on for ever.
+        let share = steady_share(&before, &moves(&[1.1, -0.55, 0.22])).unwrap();
+        assert_eq!(share, SHARES.1);
+    }
+}

@@ -1,0 +1,131 @@
+//! What the bands say together of where each impact begins.
+
+use super::bands::Windows;
+use super::rise::Likelihood;
+use crate::units::real;
+
+/// Widths of the bands' disagreement that are compared, in seconds, and shares of bands that say nothing of an impact.
+const WIDTHS_S: [f64; 7] = [4e-6, 10e-6, 20e-6, 40e-6, 80e-6, 160e-6, 320e-6];
+const SILENT: [f64; 3] = [0.02, 0.1, 0.3];
+/// Least width of the kernel, in places: narrower ones are alike on the grid.
+const NARROWEST: f64 = 0.3;
+/// Places of less than this share of a posterior are not widened.
+const LEAST_PLACE: f64 = 1e-7;
+/// A trial of less than this share of the evidence does not count.
+const LEAST_TRIAL: f64 = 1e-4;
+
+/// Where one impact begins: mean from the centre of its window and standard deviation, in samples, and the probability of
+/// each place of its grid.
+#[derive(Debug, Clone)]
+pub(super) struct Posterior {
+    pub mean: f64,
+    pub std: f64,
+    pub p: Vec<f64>,
+}
+
+/// A width and a share: its evidence in nats, and the probability of each place of each impact, up to a factor.
+struct Trial {
+    evidence: f64,
+    joint: Vec<Vec<f64>>,
+}
+
+/// Posteriors of all impacts, over the widths and shares by their evidence.
+pub(super) fn fuse(bands: &[Vec<Likelihood>], windows: &Windows, rate: f64) -> Vec<Posterior> {
+    let of_band = |band: &Vec<Likelihood>| -> Vec<Vec<f64>> {
+        band.iter().map(|l| normalised(&l.ln)).collect()
+    };
+    let each: Vec<Vec<Vec<f64>>> = bands.iter().map(of_band).collect();
+    let priors = priors(windows);
+    let mut trials = Vec::with_capacity(WIDTHS_S.len() * SILENT.len());
+    for width_s in WIDTHS_S {
+        let kernel = kernel(width_s * rate / real(windows.step), windows.places());
+        let widened = |band: &Vec<Vec<f64>>| -> Vec<Vec<f64>> {
+            band.iter().map(|p| convolved(p, &kernel)).collect()
+        };
+        let wide: Vec<Vec<Vec<f64>>> = each.iter().map(widened).collect();
+        trials.extend(SILENT.map(|silent| trial(&priors, &wide, silent)));
+    }
+    averaged(&trials, windows)
+}
+
+/// Probability of each place of each grid by the prior.
+fn priors(windows: &Windows) -> Vec<Vec<f64>> {
+    let prior = windows.of.iter().map(|w| {
+        let places = 0..=2 * w.reach;
+        let ln = places.map(|k| {
+            let off = (w.offset(k, windows.step) - w.prior.position) / w.prior.std;
+            -0.5 * off * off
+        });
+        normalised(&ln.collect::<Vec<f64>>())
+    });
+    prior.collect()
+}
+
+fn trial(priors: &[Vec<f64>], wide: &[Vec<Vec<f64>>], silent: f64) -> Trial {
+    let joint = |(i, prior): (usize, &Vec<f64>)| -> Vec<f64> {
+        let other = silent / real(prior.len());
+        let together = |k: usize| -> f64 {
+            let bands = wide.iter().map(|b| (1.0 - silent) * b[i][k] + other);
+            bands.product()
+        };
+        let places = prior.iter().enumerate();
+        places.map(|(k, p)| p * together(k)).collect()
+    };
+    let joint: Vec<Vec<f64>> = priors.iter().enumerate().map(joint).collect();
+    let sums = joint.iter().map(|j| j.iter().sum::<f64>());
+    Trial {
+        evidence: sums.map(|s| s.max(f64::MIN_POSITIVE).ln()).sum(),
+        joint,
+    }
+}
+
+/// The posteriors of impacts, over trials by their evidence.
+fn averaged(trials: &[Trial], windows: &Windows) -> Vec<Posterior> {
+    let shares = normalised(&trials.iter().map(|t| t.evidence).collect::<Vec<f64>>());
+    let posterior = windows.of.iter().enumerate().map(|(i, w)| {
+        let mut p = vec![0.0; 2 * w.reach + 1];
+        for (share, trial) in shares.iter().zip(trials).filter(|(s, _)| **s > LEAST_TRIAL) {
+            let sum: f64 = trial.joint[i].iter().sum();
+            for (p, joint) in p.iter_mut().zip(&trial.joint[i]) {
+                *p += share * joint / sum.max(f64::MIN_POSITIVE);
+            }
+        }
+        let sum: f64 = p.iter().sum();
+        p.iter_mut().for_each(|p| *p /= sum);
+        let step = windows.step;
+        let places = || p.iter().enumerate().map(|(k, p)| (p, w.offset(k, step)));
+        let mean: f64 = places().map(|(p, at)| p * at).sum();
+        let variance: f64 = places().map(|(p, at)| p * (at - mean).powi(2)).sum();
+        // Of a grid's place the variance is that of an even density over a step.
+        let std = (variance + real(step).powi(2) / 12.0).sqrt();
+        Posterior { mean, std, p }
+    });
+    posterior.collect()
+}
+
+/// Probabilities of sum 1 from their logarithms up to a constant.
+fn normalised(ln: &[f64]) -> Vec<f64> {
+    let top = ln.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let p: Vec<f64> = ln.iter().map(|l| (l - top).exp()).collect();
+    let sum: f64 = p.iter().sum();
+    p.into_iter().map(|p| p / sum).collect()
+}
+
+/// Student's density with 3 degrees of freedom at whole places from its middle on, of sum 1 over both sides.
+fn kernel(width: f64, places: usize) -> Vec<f64> {
+    let width = width.max(NARROWEST);
+    let at = |k: usize| (1.0 + (real(k) / width).powi(2) / 3.0).powi(-2);
+    let one_side: Vec<f64> = (0..places).map(at).collect();
+    let sum = 2.0 * one_side.iter().sum::<f64>() - one_side[0];
+    one_side.into_iter().map(|k| k / sum).collect()
+}
+
+fn convolved(p: &[f64], kernel: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; p.len()];
+    for (i, p) in p.iter().enumerate().filter(|(_, p)| **p > LEAST_PLACE) {
+        for (k, o) in out.iter_mut().enumerate() {
+            *o += p * kernel[i.abs_diff(k)];
+        }
+    }
+    out
+}
