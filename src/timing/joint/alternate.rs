@@ -17,8 +17,7 @@ const MISFIT_S: f64 = 0.1e-3;
 /// A match this far from the place before is another, in periods of the sound. Derived: steps find what is nearer than half
 /// of one, and a third leaves room for a template that is not yet right.
 const CYCLE: f64 = 0.33;
-/// Rounds in which what is held is learnt anew, at most. Most drops rest after 2 to 5; of dull sounds the faint ones that overlap
-/// go on by less than a standard error.
+/// Rounds in which what is held is learnt anew, at most: some drops of dull sounds that overlap reach this before they rest.
 const LIMIT: usize = 20;
 
 /// The impacts of a drop and their template, under refinement.

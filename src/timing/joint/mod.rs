@@ -13,7 +13,7 @@
 //! [time walk](time_walk). The leading edge of the sound is the same however long the contact lasts and reveals it; S₁, S₂
 //! with the contact stretch `u = (v/v₁)^(−1/5)` less its mean (Hertz) are used in that case alone.
 //!
-//! Where most of the sounds is not in common, as in most rooms and of most balls, no template times them: they are timed by
+//! Where most of the sounds is not in common, as in most real recordings that were tried, no template times them: they are timed by
 //! where they begin, each by itself ([`onset`]).
 //!
 //! # Phases
@@ -57,8 +57,8 @@ const LEAD_S: f64 = 0.25;
 const PRIOR_REACH: f64 = 4.0;
 
 /// Sounds are timed together where no more than this share of their energy is not in their template. Derived: where most of it
-/// is their own, what matches best is not where they began. Drops are far from it on either side: in the suite, and in
-/// recordings, 0 to 0.3 and 0.6 to 1.
+/// is their own, what matches best is not where they began. Drops are far from it on either side: of the
+/// suite's first scenes 0 to 0.3; of real ones 0.6 to 1, but for a tennis ball of 0.1.
 const UNLIKE: f64 = 0.5;
 
 /// Expected position of an impact, in samples of the sound, and its standard deviation.

@@ -13,8 +13,7 @@ const REST: f64 = 0.02;
 /// more than this share of itself (convention).
 const HELD_REST: f64 = 0.2;
 const STD_REST: f64 = 0.3;
-/// Rounds of the inner loop at most, which three of the suite's drops reach at their faint ends. Without it all others
-/// rest after 5 to 40.
+/// Rounds of the inner loop at most: a bound for dull sounds that overlap, which may come to rest very slowly.
 const LIMIT: usize = 100;
 /// A step back by this share of the one before has overshot: steps of that impact are halved (convention).
 const OVERSHOT: f64 = 0.7;

@@ -16,6 +16,16 @@ struct Ball {
     decay_s: f64,
 }
 
+/// A ball that clicks, with a ring that decays so fast, in seconds.
+const fn click(decay_s: f64) -> Ball {
+    Ball {
+        contact_s: 1e-4,
+        hertz: false,
+        modes_hz: [5_200.0, 9_700.0],
+        decay_s,
+    }
+}
+
 impl Ball {
     /// Pressure at a time after the touch of an impact at a share of full speed: each mode's answer to half a sine of
     /// force, by summing over it.
@@ -113,12 +123,7 @@ fn errors_from(samples: &[f32], onsets_s: &[f64], seed: u64) -> Vec<(f64, f64)> 
 
 #[test]
 fn impacts_that_overlap_are_timed_as_well_as_those_that_stand_alone() {
-    let click = Ball {
-        contact_s: 1e-4,
-        hertz: false,
-        modes_hz: [5_200.0, 9_700.0],
-        decay_s: 5e-3,
-    };
+    let click = click(5e-3);
     // The last flights are 8 ms: shorter than the ring.
     let found = errors(&click, &onsets(30, 0.25, 0.89));
     for (i, (error, std)) in found.iter().enumerate() {
@@ -188,12 +193,7 @@ fn a_contact_that_lasts_longer_when_slow_does_not_make_times_walk() {
 
 #[test]
 fn an_impact_unlike_the_others_keeps_the_detectors_time_and_says_so() {
-    let click = Ball {
-        contact_s: 1e-4,
-        hertz: false,
-        modes_hz: [5_200.0, 9_700.0],
-        decay_s: 3e-3,
-    };
+    let click = click(3e-3);
     let onsets_s = onsets(12, 0.4, 0.85);
     let mut samples = click.recorded(&onsets_s, 1);
     let mut rng = SplitMix64::new(9);
@@ -226,12 +226,7 @@ fn an_impact_unlike_the_others_keeps_the_detectors_time_and_says_so() {
 
 #[test]
 fn times_do_not_depend_on_where_the_detector_saw_the_impacts() {
-    let click = Ball {
-        contact_s: 1e-4,
-        hertz: false,
-        modes_hz: [5_200.0, 9_700.0],
-        decay_s: 5e-3,
-    };
+    let click = click(5e-3);
     let onsets_s = onsets(30, 0.25, 0.89);
     let samples = click.recorded(&onsets_s, 3);
     let [one, other] = [4, 5].map(|seed| errors_from(&samples, &onsets_s, seed));
@@ -252,12 +247,7 @@ fn times_do_not_depend_on_where_the_detector_saw_the_impacts() {
 
 #[test]
 fn impacts_at_rest_stay_where_they_are() {
-    let click = Ball {
-        contact_s: 1e-4,
-        hertz: false,
-        modes_hz: [5_200.0, 9_700.0],
-        decay_s: 5e-3,
-    };
+    let click = click(5e-3);
     let onsets_s = onsets(30, 0.25, 0.89);
     let samples = click.recorded(&onsets_s, 3);
     let span_s = (onsets_s[0], onsets_s[29]);

@@ -34,8 +34,8 @@ const CENTRED: usize = 4;
 
 /// Where impacts begin, from their priors, all in samples of the sound.
 ///
-/// The windows are laid around what is found until it stays in their middle: what lies in them then does not depend on where the
-/// impacts were expected.
+/// The windows are laid around what is found until it stays in their middle: what lies in them then depends little on where
+/// the impacts were expected.
 pub(super) fn onsets(sound: &[f64], rate: f64, priors: &[Prior]) -> Vec<Prior> {
     let mut found = priors.to_vec();
     let mut rises = None;
