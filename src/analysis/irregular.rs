@@ -38,7 +38,7 @@ pub(super) fn warnings(irregular: &[Irregular], alternation: Option<Alternation>
     if !irregular.is_empty() {
         let numbers: Vec<String> = irregular.iter().map(|i| i.impact.to_string()).collect();
         let part = if irregular.iter().any(|i| i.kind == Kind::Changed) {
-            "regular bounces of the longer part"
+            "regular bounces of the part that lasts longer"
         } else {
             "regular bounces"
         };

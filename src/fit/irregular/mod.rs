@@ -60,7 +60,8 @@ pub struct Irregularity {
 pub struct Regularity {
     /// The irregular bounces in order of time.
     pub irregular: Vec<Irregularity>,
-    /// The impacts whose bounces share one e; the longer part where it changed.
+    /// The impacts whose bounces share one e; the part that lasts longer where it changed: the place of a change is uncertain by
+    /// some of the many bounces at the end, and those last but little.
     pub part: Range<usize>,
     /// The impacts of the other part.
     pub other: Option<Range<usize>>,
@@ -113,7 +114,9 @@ impl Regularity {
         irregular.extend(singles(after));
         // The flight before the change is the last of the one part and the first of the other.
         let parts = (0..impact + 1, impact - 1..impacts.len());
-        let (part, other) = if before.len() > after.len() {
+        let lasts_s =
+            |part: &Range<usize>| impacts[part.end - 1].time_s - impacts[part.start].time_s;
+        let (part, other) = if lasts_s(&parts.0) > lasts_s(&parts.1) {
             parts
         } else {
             (parts.1, parts.0)

@@ -50,9 +50,10 @@ fn a_flight_that_lost_time_is_no_odd_bounce() {
 }
 
 #[test]
-fn the_longer_part_has_the_e_of_a_drop_in_which_it_changes() {
-    for (change, longer) in [(8, 0.87), (20, 0.92)] {
-        let impacts = drop(28, 3, |i| if i < change { 0.92 } else { 0.87 });
+fn the_part_that_lasts_longer_has_the_e_of_a_drop_in_which_it_changes() {
+    // The last has more bounces after the change than before it.
+    for (change, after, longer) in [(8, 0.96, 0.96), (20, 0.87, 0.92), (12, 0.87, 0.92)] {
+        let impacts = drop(28, 3, |i| if i < change { 0.92 } else { after });
         let regularity = Regularity::of(&impacts);
         assert_eq!(found(&impacts), [(change, Kind::Changed)]);
         let ratio = Flights::regular(&impacts, &regularity).ratio().unwrap();
