@@ -19,7 +19,7 @@ mod rise;
 
 use bands::Windows;
 use fusion::Posterior;
-use rise::Rise;
+use rise::{Likelihood, Rise};
 
 use super::joint::Prior;
 use crate::statistics::upper_median;
@@ -38,19 +38,16 @@ const CENTRED: usize = 4;
 /// the impacts were expected.
 pub(super) fn onsets(sound: &[f64], rate: f64, priors: &[Prior]) -> Vec<Prior> {
     let mut found = priors.to_vec();
-    let mut rises = None;
+    let mut learning = Learning::default();
     for _ in 0..CENTRED {
         let windows = Windows::of(sound, rate, priors, &found);
-        let first = || windows.bands.iter().map(|_| Rise::expected(rate)).collect();
-        let known: Vec<Rise> = rises.take().unwrap_or_else(first);
-        let (posteriors, known) = learnt(&windows, known, rate);
+        let posteriors = learning.rested(&windows, rate);
         let each = windows.of.iter().zip(&posteriors);
         let placed = each.map(|(w, p)| Prior {
             position: w.centre + p.mean,
             std: p.std,
         });
         found = placed.collect();
-        rises = Some(known);
         let stays = |p: &Posterior| p.mean.abs() < 0.5 * real(windows.step).max(p.std);
         if posteriors.iter().all(stays) {
             break;
@@ -59,23 +56,53 @@ pub(super) fn onsets(sound: &[f64], rate: f64, priors: &[Prior]) -> Vec<Prior> {
     found
 }
 
-/// The posteriors in windows, and the rises of all bands, learnt in turn from those given until no onset moves.
-fn learnt(windows: &Windows, mut rises: Vec<Rise>, rate: f64) -> (Vec<Posterior>, Vec<Rise>) {
-    let mut posteriors: Vec<Posterior> = Vec::new();
-    for _ in 0..LIMIT {
-        let each = rises.iter().zip(&windows.bands);
-        let likelihoods: Vec<_> = each.map(|(r, b)| r.likelihoods(b, windows)).collect();
-        let now = fusion::fuse(&likelihoods, windows, rate);
-        let rests = rest(&posteriors, &now);
-        posteriors = now;
-        if rests {
-            break;
+/// What is learnt in turn with the onsets.
+#[derive(Debug, Default)]
+struct Learning {
+    /// The rises of all bands.
+    rises: Vec<Rise>,
+    /// Where the onsets were first found, in samples of the sound.
+    first: Vec<f64>,
+}
+
+impl Learning {
+    /// The posteriors in windows, and the rises, learnt in turn until no onset moves.
+    fn rested(&mut self, windows: &Windows, rate: f64) -> Vec<Posterior> {
+        let expected = || Rise::expected(rate);
+        self.rises.resize_with(windows.bands.len(), expected);
+        let mut posteriors: Vec<Posterior> = Vec::new();
+        let mut likelihoods: Vec<Vec<Likelihood>> = Vec::new();
+        for _ in 0..LIMIT {
+            let each = self.rises.iter().zip(&windows.bands).enumerate();
+            let now = each.map(|(k, (r, b))| r.likelihoods(b, windows, likelihoods.get(k)));
+            likelihoods = now.collect();
+            let now = fusion::fuse(&likelihoods, windows, rate);
+            let rests = rest(&posteriors, &now);
+            posteriors = now;
+            if rests {
+                break;
+            }
+            let late = self.late(windows, &posteriors);
+            let each = self.rises.iter_mut().zip(&windows.bands).zip(&likelihoods);
+            for ((rise, band), l) in each {
+                rise.learn(band, l, windows, (&posteriors, late));
+            }
         }
-        for ((rise, band), l) in rises.iter_mut().zip(&windows.bands).zip(&likelihoods) {
-            rise.learn(band, l, windows, &posteriors);
-        }
+        posteriors
     }
-    (posteriors, rises)
+
+    /// How far the onsets have moved in common, in samples.
+    ///
+    /// Where a rise begins is a name: all onsets later and the rise earlier by as much is the same sound. Rises are learnt
+    /// from where the onsets were first found, or both would creep on for ever.
+    fn late(&mut self, windows: &Windows, posteriors: &[Posterior]) -> f64 {
+        let each = windows.of.iter().zip(posteriors);
+        let at: Vec<f64> = each.map(|(w, p)| w.centre + p.mean).collect();
+        if self.first.is_empty() {
+            self.first.clone_from(&at);
+        }
+        upper_median(at.iter().zip(&self.first).map(|(a, f)| a - f)).unwrap_or(0.0)
+    }
 }
 
 /// Whether no onset moved by much, against the others: what is common to all is only where the rise is said to begin.

@@ -3,7 +3,7 @@
 use super::bands::{AFTER_S, Band, FOOT_S, Window, Windows};
 use super::fusion::Posterior;
 use crate::signal::logarithm::ln_from_one;
-use crate::units::{real, samples_in};
+use crate::units::{real, samples_in, whole};
 
 /// Segments in which the rise is constant, …
 const SEGMENTS: usize = 11;
@@ -72,12 +72,29 @@ impl Segments {
     /// For a foot at an index of the sums.
     fn at(sums: &[f64], foot: usize, ends: &[usize; SEGMENTS]) -> Self {
         let last = sums.len() - 1;
+        let index = |k: usize| (foot + k).min(last);
+        Self::of(ends, |k| (real(index(k)), sums[index(k)]))
+    }
+
+    /// For a foot between indices.
+    fn between(sums: &[f64], foot: f64, ends: &[usize; SEGMENTS]) -> Self {
+        let last = real(sums.len() - 1);
+        Self::of(ends, |k| {
+            let at = (foot + real(k)).clamp(0.0, last);
+            let before = whole(at);
+            let after = (before + 1).min(sums.len() - 1);
+            let share = at - real(before);
+            (at, sums[before] + share * (sums[after] - sums[before]))
+        })
+    }
+
+    /// By the samples and the energy up to so many samples after the foot.
+    fn of(ends: &[usize; SEGMENTS], up_to: impl Fn(usize) -> (f64, f64)) -> Self {
         let (mut counts, mut energies) = ([0.0; SEGMENTS], [0.0; SEGMENTS]);
-        let mut from = foot;
-        for (k, end) in ends.iter().enumerate() {
-            let to = (foot + end).min(last);
-            counts[k] = real(to - from);
-            energies[k] = sums[to] - sums[from];
+        let mut from = up_to(0);
+        for (k, &end) in ends.iter().enumerate() {
+            let to = up_to(end);
+            (counts[k], energies[k]) = (to.0 - from.0, to.1 - from.1);
             from = to;
         }
         Self { counts, energies }
@@ -112,14 +129,21 @@ impl Rise {
         }
     }
 
-    /// The likelihoods of all impacts.
-    pub(super) fn likelihoods(&self, band: &Band, windows: &Windows) -> Vec<Likelihood> {
-        let each = windows.of.iter().zip(&band.sums);
-        let of = each.map(|(window, sums)| {
+    /// The likelihoods of all impacts, from the sizes that fitted before, if any.
+    pub(super) fn likelihoods(
+        &self,
+        band: &Band,
+        windows: &Windows,
+        before: Option<&Vec<Likelihood>>,
+    ) -> Vec<Likelihood> {
+        let each = windows.of.iter().zip(&band.sums).enumerate();
+        let of = each.map(|(i, (window, sums))| {
             let places = 0..=2 * window.reach;
+            let before = before.map(|b| &b[i].fits);
             let at = places.map(|place| {
                 let onset = window.onset(place, windows);
-                let (ln, fit) = self.at(band.noise, window, sums, onset);
+                let size = before.map(|fits| fits[place].size);
+                let (ln, fit) = self.at((band.noise, window, sums), onset, size);
                 (self.kappa * ln, fit)
             });
             let (ln, fits) = at.unzip();
@@ -128,8 +152,13 @@ impl Rise {
         of.collect()
     }
 
-    /// Log-likelihood with κ = 1, and the fit, for an onset at an index of the sums.
-    fn at(&self, noise: f64, window: &Window, sums: &[f64], onset: usize) -> (f64, Fit) {
+    /// Log-likelihood with κ = 1, and the fit, for an onset at an index of the sums, from the size that fitted before.
+    fn at(
+        &self,
+        (noise, window, sums): (f64, &Window, &[f64]),
+        onset: usize,
+        before: Option<f64>,
+    ) -> (f64, Fit) {
         let foot = onset - self.foot;
         let last = sums.len() - 1;
         let early = sums[foot] - sums[foot - window.before];
@@ -139,7 +168,7 @@ impl Rise {
         let end = (foot + self.ends[SEGMENTS - 1]).min(last);
         segments.counts[SEGMENTS - 1] += real(last - end);
         segments.energies[SEGMENTS - 1] += sums[last] - sums[end];
-        let size = self.size(level, &segments);
+        let size = self.size(level, &segments, before);
         let mut logs = [0.0; SEGMENTS];
         #[expect(
             clippy::cast_possible_truncation,
@@ -149,35 +178,47 @@ impl Rise {
             *log = ln_from_one((1.0 + size * value / level) as f32);
         }
         let mut ln = real(last) * level.ln() + sums[foot] / level;
+        let inverses = self.inverses(level, size);
         for (k, log) in logs.iter().enumerate() {
-            let variance = level + size * self.values[k];
-            ln += segments.counts[k] * f64::from(*log) + segments.energies[k] / variance;
+            ln += segments.counts[k] * f64::from(*log) + segments.energies[k] * inverses[k];
         }
         (-0.5 * ln, Fit { size, level })
     }
 
-    /// The size of greatest likelihood, by Fisher's scoring.
-    fn size(&self, level: f64, segments: &Segments) -> f64 {
+    /// Inverse variances of the segments.
+    fn inverses(&self, level: f64, size: f64) -> [f64; SEGMENTS] {
+        self.values.map(|value| 1.0 / (level + size * value))
+    }
+
+    /// The size of greatest likelihood, by Fisher's scoring: from the one before a step, as rounds go on, and otherwise from
+    /// the energy above the level.
+    fn size(&self, level: f64, segments: &Segments, before: Option<f64>) -> f64 {
+        if let Some(before) = before {
+            return self.scored(level, segments, before);
+        }
         let Segments { counts, energies } = segments;
         let count: f64 = counts.iter().sum();
         let weight: f64 = counts.iter().zip(&self.values).map(|(n, g)| n * g).sum();
         let above = energies.iter().sum::<f64>() - level * count;
-        let mut size = above.max(LEAST_SIZE * level * count) / weight;
-        for _ in 0..SIZE_STEPS {
-            let (mut gradient, mut information) = (0.0, 0.0);
-            for (k, value) in self.values.iter().enumerate() {
-                let variance = level + size * value;
-                let weight = value / variance;
-                gradient += weight * (energies[k] / variance - counts[k]);
-                information += counts[k] * weight * weight;
-            }
-            let (least, most) = (SIZE_FACTORS.0 * size, SIZE_FACTORS.1 * size);
-            size = (size + gradient / information).clamp(least, most);
-        }
-        size
+        let first = above.max(LEAST_SIZE * level * count) / weight;
+        (0..SIZE_STEPS).fold(first, |size, _| self.scored(level, segments, size))
     }
 
-    /// Learns the rise and κ from all impacts, each over its likely places (expectation and maximisation).
+    /// One step of scoring.
+    fn scored(&self, level: f64, segments: &Segments, size: f64) -> f64 {
+        let inverses = self.inverses(level, size);
+        let (mut gradient, mut information) = (0.0, 0.0);
+        for (k, inverse) in inverses.iter().enumerate() {
+            let weight = self.values[k] * inverse;
+            gradient += weight * (segments.energies[k] * inverse - segments.counts[k]);
+            information += segments.counts[k] * weight * weight;
+        }
+        let (least, most) = (SIZE_FACTORS.0 * size, SIZE_FACTORS.1 * size);
+        (size + gradient / information).clamp(least, most)
+    }
+
+    /// Learns the rise and κ from all impacts, each over its likely places, from so many samples before them on (expectation
+    /// and maximisation).
     ///
     /// # Formula
     /// `κ = 2/(m·var)`, the variance of means of m values of x²/V, over that of independent ones.
@@ -186,7 +227,7 @@ impl Rise {
         band: &Band,
         likelihoods: &[Likelihood],
         windows: &Windows,
-        now: &[Posterior],
+        (now, late): (&[Posterior], f64),
     ) {
         let mut lesson = Lesson::default();
         for (((l, w), sums), posterior) in
@@ -195,8 +236,8 @@ impl Rise {
             let sure = 1.0 / (1.0 + (posterior.std / self.certain).powi(2));
             let likely = posterior.p.iter().enumerate();
             for (place, &p) in likely.filter(|(_, p)| **p > LEAST_SHARE) {
-                let foot = w.onset(place, windows) - self.foot;
-                let segments = Segments::at(sums, foot, &self.ends);
+                let foot = real(w.onset(place, windows) - self.foot) - late;
+                let segments = Segments::between(sums, foot, &self.ends);
                 lesson.add(&segments, l.fits[place], &self.values, (p, sure));
             }
         }
