@@ -22,15 +22,22 @@ use fusion::Posterior;
 use rise::{Likelihood, Rise};
 
 use super::joint::Prior;
+use crate::linalg::dot;
 use crate::statistics::upper_median;
 use crate::units::real;
 
-/// Rounds of learning end once no onset moves by this share of its standard deviation (convention) …
+/// Rounds of learning end once no onset moves by this share of its standard deviation, or by the second where windows are
+/// going to be laid anew (convention) …
 const REST: f64 = 0.1;
+const REST_ASIDE: f64 = 0.5;
 /// … or after this number of rounds: in long drops an impact with two likely places goes on moving between them.
 const LIMIT: usize = 24;
 /// Times that windows are laid at most.
-const CENTRED: usize = 4;
+const CENTRED: usize = 8;
+/// Rises go this share of the way to what the onsets teach: more certain onsets make a steeper rise and the other way round …
+const LEARNT: f64 = 0.5;
+/// … and half of it from when moves turn back by this share of those before (convention).
+const TURNED: f64 = 0.5;
 
 /// Where impacts begin, from their priors, all in samples of the sound.
 ///
@@ -48,8 +55,7 @@ pub(super) fn onsets(sound: &[f64], rate: f64, priors: &[Prior]) -> Vec<Prior> {
             std: p.std,
         });
         found = placed.collect();
-        let stays = |p: &Posterior| p.mean.abs() < 0.5 * real(windows.step).max(p.std);
-        if posteriors.iter().all(stays) {
+        if centred(&posteriors, &windows) {
             break;
         }
     }
@@ -72,20 +78,27 @@ impl Learning {
         self.rises.resize_with(windows.bands.len(), expected);
         let mut posteriors: Vec<Posterior> = Vec::new();
         let mut likelihoods: Vec<Vec<Likelihood>> = Vec::new();
+        let mut moves: Vec<f64> = Vec::new();
+        let mut share = LEARNT;
         for _ in 0..LIMIT {
             let each = self.rises.iter().zip(&windows.bands).enumerate();
             let now = each.map(|(k, (r, b))| r.likelihoods(b, windows, likelihoods.get(k)));
             likelihoods = now.collect();
             let now = fusion::fuse(&likelihoods, windows, rate);
-            let rests = rest(&posteriors, &now);
+            let moved = moves_between(&posteriors, &now);
             posteriors = now;
-            if rests {
+            if turned(&moves, &moved) {
+                share *= 0.5;
+            }
+            let rest = if centred(&posteriors, windows) { REST } else { REST_ASIDE };
+            if !moved.is_empty() && moved.iter().all(|m| m.abs() < rest * share / LEARNT) {
                 break;
             }
+            moves = moved;
             let late = self.late(windows, &posteriors);
             let each = self.rises.iter_mut().zip(&windows.bands).zip(&likelihoods);
             for ((rise, band), l) in each {
-                rise.learn(band, l, windows, (&posteriors, late));
+                rise.learn(band, l, windows, (&posteriors, late), share);
             }
         }
         posteriors
@@ -105,15 +118,27 @@ impl Learning {
     }
 }
 
-/// Whether no onset moved by much, against the others: what is common to all is only where the rise is said to begin.
-fn rest(before: &[Posterior], now: &[Posterior]) -> bool {
+/// Whether windows are centred on what was found in them.
+fn centred(posteriors: &[Posterior], windows: &Windows) -> bool {
+    let step = real(windows.step);
+    let stays = |p: &Posterior| p.mean.abs() < 0.5 * step.max(p.std);
+    posteriors.iter().all(stays)
+}
+
+/// How far each onset moved, in its standard deviations, against the others: what is common to all is only where the rise is
+/// said to begin.
+fn moves_between(before: &[Posterior], now: &[Posterior]) -> Vec<f64> {
     let moves = || before.iter().zip(now).map(|(b, n)| n.mean - b.mean);
-    let Some(common) = upper_median(moves()) else {
-        return false;
-    };
-    moves()
-        .zip(now)
-        .all(|(moved, n)| (moved - common).abs() < REST * n.std)
+    let common = upper_median(moves()).unwrap_or(0.0);
+    let each = moves().zip(now).map(|(moved, n)| (moved - common) / n.std);
+    each.collect()
+}
+
+/// Whether moves go back on those before.
+fn turned(before: &[f64], now: &[f64]) -> bool {
+    let pairs = before.iter().zip(now);
+    let along: f64 = pairs.map(|(b, n)| b * n).sum();
+    along < -TURNED * dot(before, before)
 }
 
 #[cfg(test)]

@@ -228,6 +228,7 @@ impl Rise {
         likelihoods: &[Likelihood],
         windows: &Windows,
         (now, late): (&[Posterior], f64),
+        share: f64,
     ) {
         let mut lesson = Lesson::default();
         for (((l, w), sums), posterior) in
@@ -241,13 +242,13 @@ impl Rise {
                 lesson.add(&segments, l.fits[place], &self.values, (p, sure));
             }
         }
-        // Half of the way: more certain places make a steeper rise and the other way round.
+        let towards = |known: f64, learnt: f64| known * (learnt / known).powf(share);
         if let Some(kappa) = lesson.kappa() {
-            self.kappa = (self.kappa * kappa.clamp(KAPPAS.0, KAPPAS.1)).sqrt();
+            self.kappa = towards(self.kappa, kappa.clamp(KAPPAS.0, KAPPAS.1));
         }
         let learnt = lesson.rise(&self.values);
         for (value, learnt) in self.values.iter_mut().zip(learnt) {
-            *value = (*value * learnt).sqrt();
+            *value = towards(*value, learnt);
         }
     }
 }
