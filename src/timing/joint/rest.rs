@@ -26,8 +26,9 @@ impl Joint<'_> {
     /// Times and template in turn until they rest.
     ///
     /// Where all moves are about the same share r of those of the round before, the rest of the way is
-    /// `r + r² + … = r/(1 − r)` of the last ones (Aitken), and is gone at once.
-    pub(super) fn rest(&mut self) {
+    /// `r + r² + … = r/(1 − r)` of the last ones (Aitken), and is gone at once. Gives the heads as they rest.
+    pub(super) fn rest(&mut self) -> Vec<Sample> {
+        let mut heads = Vec::new();
         let count = self.places.len();
         let mut before: Option<Vec<Moved>> = None;
         let (mut last, mut gains) = (vec![0.0; count], vec![1.0; count]);
@@ -40,8 +41,8 @@ impl Joint<'_> {
                 }
                 *last = by;
             }
-            let (heads, moves): (Vec<Sample>, Vec<Moved>) =
-                steps.into_iter().map(|s| (s.sample, s.moved)).unzip();
+            let moves: Vec<Moved>;
+            (heads, moves) = steps.into_iter().map(|s| (s.sample, s.moved)).unzip();
             let stretches = &self.started.contact_stretches;
             self.template.learn_shape(&heads, stretches);
             if self.greatest_move(&moves) < REST {
@@ -53,6 +54,7 @@ impl Joint<'_> {
             }
             before = share.is_none().then_some(moves);
         }
+        heads
     }
 
     /// Goes the rest of the way whose steps each are a share of the one before.

@@ -103,8 +103,9 @@ impl Joint<'_> {
 
     /// Standard error of a place by its match and its prior, in samples.
     pub(super) fn std(&self, i: usize) -> f64 {
-        let head = self.sample(i, self.template.head);
-        let normal = self.normal(i, &head.sound, &head.noise);
+        // The information is that of the template, whatever is heard.
+        let noise = &self.noise[i];
+        let normal = self.normal(i, noise, noise);
         let prior = self.pull_of_prior(i).1;
         (self.information(i, &normal) + prior).sqrt().recip()
     }
