@@ -2,7 +2,7 @@
 
 use super::Place;
 use super::alternate::Joint;
-use super::step::{Moved, STEP, Step};
+use super::step::{Moved, Step};
 use crate::signal::template::Sample;
 use crate::signal::template::average::factors;
 
@@ -23,45 +23,36 @@ const STEADY: f64 = 0.9;
 const SHARES: (f64, f64) = (0.5, 0.95);
 
 impl Joint<'_> {
-    /// Times and template in turn until they rest.
+    /// Times and template in turn until they rest. Gives the heads as they rest.
     ///
     /// Where all moves are about the same share r of those of the round before, the rest of the way is
-    /// `r + r² + … = r/(1 − r)` of the last ones (Aitken), and is gone at once. Gives the heads as they rest.
+    /// `r + r² + … = r/(1 − r)` of the last ones (Aitken), and is gone at once.
     pub(super) fn rest(&mut self) -> Vec<Sample> {
-        let mut heads = Vec::new();
         let count = self.places.len();
         let mut before: Option<Vec<Moved>> = None;
         let (mut last, mut gains) = (vec![0.0; count], vec![1.0; count]);
+        let mut heads = Vec::new();
         for _ in 0..LIMIT {
             let steps: Vec<Step> = (0..count).map(|i| self.step(i, gains[i])).collect();
-            for ((gain, last), step) in gains.iter_mut().zip(&mut last).zip(&steps) {
-                let by = step.moved.by;
-                if by * *last < 0.0 && by.abs() > OVERSHOT * last.abs() {
+            let moves: Vec<Moved> = steps.iter().map(|s| s.moved).collect();
+            for ((gain, last), moved) in gains.iter_mut().zip(&mut last).zip(&moves) {
+                if moved.by * *last < 0.0 && moved.by.abs() > OVERSHOT * last.abs() {
                     *gain *= 0.5;
                 }
-                *last = by;
+                *last = moved.by;
             }
-            let moves: Vec<Moved>;
-            (heads, moves) = steps.into_iter().map(|s| (s.sample, s.moved)).unzip();
+            let share = before.as_ref().and_then(|b| steady_share(b, &moves));
+            let left = share.map_or(0.0, |share| share / (1.0 - share));
+            let each = steps.iter().enumerate();
+            heads = each.map(|(i, step)| self.go_on(i, step, left)).collect();
             let stretches = &self.started.contact_stretches;
             self.template.learn_shape(&heads, stretches);
             if self.greatest_move(&moves) < REST {
                 break;
             }
-            let share = before.as_ref().and_then(|b| steady_share(b, &moves));
-            if let Some(share) = share {
-                self.go_on(&moves, share);
-            }
             before = share.is_none().then_some(moves);
         }
         heads
-    }
-
-    /// Goes the rest of the way whose steps each are a share of the one before.
-    fn go_on(&mut self, moves: &[Moved], share: f64) {
-        for (place, moved) in self.places.iter_mut().zip(moves) {
-            place.position += (moved.by * share / (1.0 - share)).clamp(-STEP, STEP);
-        }
     }
 
     /// The places as they are, with their standard errors.
