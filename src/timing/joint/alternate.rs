@@ -63,14 +63,19 @@ impl<'a> Joint<'a> {
     pub(super) fn settle(&mut self) {
         let mut heads = self.heads();
         for _ in 0..LIMIT {
-            self.hold(&mut heads);
-            let before = self.now();
-            heads = self.rest();
-            self.learn_misfit(&heads);
-            if self.rests_since(&before) {
+            if self.round(&mut heads) {
                 break;
             }
         }
+    }
+
+    /// One round of the outer loop, from the heads as they are; whether nothing moved.
+    pub(super) fn round(&mut self, heads: &mut Vec<Sample>) -> bool {
+        self.hold(heads);
+        let before = self.now();
+        *heads = self.rest();
+        self.learn_misfit(heads);
+        self.rests_since(&before)
     }
 
     /// The same with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places

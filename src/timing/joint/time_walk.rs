@@ -120,8 +120,13 @@ fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, 
     let more = [FEWEST_LINEAR, FEWEST_SQUARE];
     let components = 1 + more.iter().filter(|&&n| count >= n).count();
     let mut joint = Joint::of(started, aligned.clone(), components);
-    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it.
-    joint.settle();
+    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it. A round shows
+    // whether more is worth its time.
+    let mut heads = joint.heads();
+    if !joint.round(&mut heads) {
+        walk(&joint, HINT)?;
+        joint.settle();
+    }
     let walk = walk(&joint, SIGNIFICANT)?;
     Some((joint, walk))
 }
