@@ -42,8 +42,13 @@ pub(super) fn warnings(irregular: &[Irregular], alternation: Option<Alternation>
         } else {
             "regular bounces"
         };
+        let impact = if numbers.len() == 1 {
+            "impact"
+        } else {
+            "impacts"
+        };
         let message = format!(
-            "irregular at impact {}: e is that of the {part}. A joint, a speck, another surface or a cut of the recording \
+            "irregular at {impact} {}: e is that of the {part}. A joint, a speck, another surface or a cut of the recording \
              does this",
             numbers.join(", ")
         );

@@ -200,18 +200,24 @@ fn warnings(selection: &Selection, first: usize) -> Vec<Warning> {
     let outliers = &selection.fit.outliers;
     let numbers = |of: &[usize]| {
         let numbers: Vec<String> = of.iter().map(|i| (first + i + 1).to_string()).collect();
-        numbers.join(", ")
+        let impact = if numbers.len() == 1 {
+            "impact"
+        } else {
+            "impacts"
+        };
+        format!("{impact} {}", numbers.join(", "))
     };
     if !outliers.bounces.is_empty() {
         let message = format!(
-            "the rebound at impact {} is unlike the others and counts for little: spin, or a spot of the surface",
+            "the rebound at {} is unlike the others and counts for little: the ball spun, or met a spot of the surface. Try \
+             another place",
             numbers(&outliers.bounces)
         );
         warnings.push(Warning::new(WarningCode::WildBounce, message));
     }
     if !outliers.times.is_empty() {
         let message = format!(
-            "the time of impact {} fits none of its neighbours and counts for little",
+            "the time of {} fits none of its neighbours and counts for little",
             numbers(&outliers.times)
         );
         warnings.push(Warning::new(WarningCode::StrayTime, message));
@@ -219,7 +225,7 @@ fn warnings(selection: &Selection, first: usize) -> Vec<Warning> {
     if let Some(other) = selection.alike {
         let message = format!(
             "the model {other} explains the flights as well as {}: drag and an e that depends on speed cannot be told \
-             apart without --mass and --diameter",
+             apart. The ball's mass and diameter would tell",
             selection.selected
         );
         warnings.push(Warning::new(WarningCode::ModelsAlike, message));

@@ -56,8 +56,8 @@ impl Candidate {
             Lack::Lead => "others fit nearly as well".to_owned(),
         };
         format!(
-            "{count} sounds from {first:.3} to {last:.3} s {flights}, but {lack}. If they are the impacts, --labels writes \
-             them and --impacts fits them"
+            "{count} sounds from {first:.3} to {last:.3} s {flights}, but {lack}. If they are the impacts, write \
+             them as labels and have those fitted"
         )
     }
 }
