@@ -64,7 +64,11 @@ impl Sounds {
             );
         }
         let message = match (candidate, self.noticeable) {
-            (Some(candidate), sharp) => format!("sharp sounds: {sharp}, but no drop beyond doubt. {}", candidate.in_words()),
+            (Some(candidate), sharp) => format!(
+                "{}, but no drop beyond doubt. {}",
+                counted(sharp, "sharp sound"),
+                candidate.in_words()
+            ),
             (None, 0) => {
                 "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that the right \
                  input was recorded"

@@ -131,14 +131,21 @@ fn advice(report: &Report, code: WarningCode) -> Option<&'static str> {
         .drops
         .iter()
         .all(|d| d.model.parameters.drag_per_s2.is_some());
+    let settings = &report.settings;
+    let height_known = settings.height_m.is_some();
+    let ball_known = settings.mass_kg.is_some() && settings.diameter_m.is_some();
     Some(match code {
         WarningCode::NoDrop if report.candidate.is_some() => "--labels and --impacts",
-        WarningCode::NoDrop if !report.rejected.is_empty() => "--height, --start and --end",
+        WarningCode::NoDrop if report.rejected.is_empty() => return None,
+        WarningCode::NoDrop if height_known => "--start and --end",
+        WarningCode::NoDrop => "--height, --start and --end",
+        WarningCode::StrayTime => "--labels and --impacts",
         WarningCode::AirDrag if drag_known => return None,
         WarningCode::LeftOut => "--start and --end",
         WarningCode::BeyondBounces => "--mass and --diameter, --contact-time",
         WarningCode::AirDrag | WarningCode::ModelsAlike => "--mass and --diameter",
-        WarningCode::FewBounces => "--height, --mass and --diameter",
+        WarningCode::FewBounces if !height_known => "--height",
+        WarningCode::FewBounces if !ball_known => "--mass and --diameter",
         WarningCode::ContactTooLong => "--contact-time",
         WarningCode::FirstImpactMissing
         | WarningCode::HeightTooSmall

@@ -28,7 +28,7 @@ pub use estimates::{Estimates, Method, Restitution, Scatter};
 pub use impact::{Bounce, Impact};
 pub use irregular::{Irregular, Kind as IrregularKind};
 pub use model::{Given, Model, Parameters};
-pub(crate) use numbers::{counted, decimals, short, with_error};
+pub(crate) use numbers::{counted, decimals, listed, short, with_error};
 pub use rejected::{RejectReason, Rejected};
 pub use settings::Settings;
 pub(crate) use text::model_name;

@@ -47,6 +47,36 @@ pub(crate) fn counted(count: usize, one: &str) -> String {
     format!("{count} {one}{}", if count == 1 { "" } else { "s" })
 }
 
+/// `2`, `2 and 3`, `2, 3 and 5`.
+pub(crate) fn listed(numbers: &[usize]) -> String {
+    let words: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+    match words.as_slice() {
+        [most @ .., last] if !most.is_empty() => format!("{} and {last}", most.join(", ")),
+        words => words.concat(),
+    }
+}
+
+/// Evidence in nats as odds to 1, of which nobody needs more than two digits.
+pub(super) fn odds(nats: f64) -> String {
+    let odds = nats.exp();
+    match odds {
+        _ if odds >= 1e9 => "over a billion to 1".to_owned(),
+        _ if odds >= 1e6 => format!("{:.0} million to 1", two_digits(1e-6 * odds)),
+        _ if odds >= 1e3 => format!(
+            "{:.0},{:03.0} to 1",
+            (two_digits(odds) / 1e3).floor(),
+            two_digits(odds) % 1e3
+        ),
+        _ if odds >= 10.0 => format!("{:.0} to 1", two_digits(odds)),
+        _ => format!("{odds:.1} to 1"),
+    }
+}
+
+fn two_digits(x: f64) -> f64 {
+    let unit = 10.0_f64.powf(x.log10().floor() - 1.0).max(1.0);
+    (x / unit).round() * unit
+}
+
 /// Decimals that show an error with two digits, one at least.
 pub(super) fn digits_for(std: f64) -> usize {
     decimals(std).max(1)
@@ -82,6 +112,33 @@ mod tests {
             assert_eq!(short(0.929_512, std), shown);
         }
         assert_eq!(short(305.2, 47.0), "305 ± 47");
+    }
+
+    #[test]
+    fn evidence_is_told_as_odds() {
+        for (nats, told) in [
+            (1.0, "2.7 to 1"),
+            (3.0, "20 to 1"),
+            (6.0, "400 to 1"),
+            (8.1, "3,300 to 1"),
+            (11.5, "99,000 to 1"),
+            (13.0, "440,000 to 1"),
+            (16.0, "9 million to 1"),
+            (40.0, "over a billion to 1"),
+        ] {
+            assert_eq!(odds(nats), told, "{nats}");
+        }
+    }
+
+    #[test]
+    fn numbers_are_listed_as_a_person_does() {
+        for (numbers, told) in [
+            (&[2][..], "2"),
+            (&[2, 3], "2 and 3"),
+            (&[2, 3, 5], "2, 3 and 5"),
+        ] {
+            assert_eq!(listed(numbers), told);
+        }
     }
 
     #[test]

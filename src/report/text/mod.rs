@@ -6,6 +6,7 @@ mod models;
 mod table;
 mod words;
 
+use super::numbers::listed;
 use super::wrap::wrapped;
 use super::{Drop, Impact, Irregular, Rejected, Report, Warning, WarningCode, batch, rule};
 use details::{basis, ways};
@@ -176,11 +177,10 @@ fn warnings(out: &mut String, report: &Report, advice: Advice<'_>) {
 
 /// `drop 2: `, `drops 2, 3 and 5: `; nothing for the whole recording.
 fn of_drops(numbers: &[usize]) -> String {
-    let words: Vec<String> = numbers.iter().map(ToString::to_string).collect();
-    match words.as_slice() {
-        [] => String::new(),
-        [one] => format!("drop {one}: "),
-        [most @ .., last] => format!("drops {} and {last}: ", most.join(", ")),
+    match numbers.len() {
+        0 => String::new(),
+        1 => format!("drop {}: ", listed(numbers)),
+        _ => format!("drops {}: ", listed(numbers)),
     }
 }
 

@@ -4,7 +4,7 @@ use super::entry;
 use crate::fit::model::Budget;
 use crate::fit::model_selection::ALIKE;
 use crate::fit::{Estimate, ModelKind};
-use crate::report::numbers::{short, short_decimals};
+use crate::report::numbers::{odds, short, short_decimals};
 use crate::report::{Ball, Drop, Given, Model, Report};
 
 /// The lines of a drop, and what a rule book says of it.
@@ -72,27 +72,6 @@ fn gain_over_constant(model: &Model) -> Option<f64> {
         found.map(|c| c.gain_nats)
     };
     Some(gain(model.selected)? - gain(ModelKind::Constant)?)
-}
-
-/// Evidence in nats as odds to 1, of which nobody needs more than two digits.
-fn odds(nats: f64) -> String {
-    let odds = nats.exp();
-    match odds {
-        _ if odds >= 1e9 => "over a billion to 1".to_owned(),
-        _ if odds >= 1e6 => format!("{:.0} million to 1", two_digits(1e-6 * odds)),
-        _ if odds >= 1e3 => format!(
-            "{:.0},{:03.0} to 1",
-            (two_digits(odds) / 1e3).floor(),
-            two_digits(odds) % 1e3
-        ),
-        _ if odds >= 10.0 => format!("{:.0} to 1", two_digits(odds)),
-        _ => format!("{odds:.1} to 1"),
-    }
-}
-
-fn two_digits(x: f64) -> f64 {
-    let unit = 10.0_f64.powf(x.log10().floor() - 1.0).max(1.0);
-    (x / unit).round() * unit
 }
 
 /// Drag as the speed beyond which the ball cannot fall: `v = g/√K`.
@@ -220,22 +199,6 @@ fn causes(budget: &Budget) -> String {
 mod tests {
     use super::*;
     use crate::report::Impact;
-
-    #[test]
-    fn evidence_is_told_as_odds() {
-        for (nats, told) in [
-            (1.0, "2.7 to 1"),
-            (3.0, "20 to 1"),
-            (6.0, "400 to 1"),
-            (8.1, "3,300 to 1"),
-            (11.5, "99,000 to 1"),
-            (13.0, "440,000 to 1"),
-            (16.0, "9 million to 1"),
-            (40.0, "over a billion to 1"),
-        ] {
-            assert_eq!(odds(nats), told, "{nats}");
-        }
-    }
 
     #[test]
     fn a_model_is_told_by_what_counts_beside_e() {
