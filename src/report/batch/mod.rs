@@ -41,18 +41,18 @@ pub struct DropDigest {
     pub restitution: Option<Estimate>,
 }
 
+#[cfg(test)]
 impl Digest {
     /// A recording of this name with this result.
-    #[must_use]
-    pub const fn new(file: String, found: Found) -> Self {
+    pub(crate) const fn new(file: String, found: Found) -> Self {
         Self { file, found }
     }
 }
 
+#[cfg(test)]
 impl DropDigest {
     /// A drop of so many impacts with this e.
-    #[must_use]
-    pub const fn new(bounces: usize, restitution: Option<Estimate>) -> Self {
+    pub(crate) const fn new(bounces: usize, restitution: Option<Estimate>) -> Self {
         Self {
             bounces,
             restitution,

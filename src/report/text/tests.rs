@@ -43,7 +43,7 @@ fn report(drops: Vec<Drop>) -> Report {
 
 #[test]
 fn the_first_line_is_the_answer() {
-    let said = to_text(&report(vec![drop_of(0.929_45, 0.000_7, 67)]), Detail::Usual);
+    let said = to_text(&report(vec![drop_of(0.929_42, 0.000_7, 67)]), Detail::Usual);
     let mut lines = said.lines();
     assert_eq!(
         lines.next().unwrap(),
@@ -82,7 +82,7 @@ fn a_shell_reads_a_line_per_drop() {
 fn several_drops_have_a_line_each_then_their_mean() {
     let said = to_text(
         &report(vec![
-            drop_of(0.929_45, 0.000_7, 67),
+            drop_of(0.929_42, 0.000_7, 67),
             drop_of(0.95, 0.014, 1),
         ]),
         Detail::Usual,
@@ -97,8 +97,9 @@ fn several_drops_have_a_line_each_then_their_mean() {
         lines[2],
         "    2  e = 0.950 ± 0.014    1 bounce in 5.8 s, from 0.0 s"
     );
+    let words = said.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(
-        said.contains("  mean e   0.9") && said.contains("for 1 degree of freedom"),
+        words.contains("mean e 0.9") && words.contains("for 1 degree of freedom"),
         "{said}"
     );
 }
