@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const MAY_NAME: [(&str, &[&str]); 27] = [
     ("error.rs", &[]),
     ("words.rs", &[]),
-    ("units.rs", &[]),
+    ("units", &[]),
     ("random.rs", &[]),
     ("event.rs", &[]),
     ("impact.rs", &["words"]),

@@ -39,7 +39,7 @@ fn a_batch_says_each_file_then_the_mean_and_who_is_far() {
         "bad.wav: failed: it is empty\n",
         "11 recordings, 10 drops; without a drop: 1; failed: 1\n",
         "more than they claim",
-        "outliers two\\n.wav drop 2: e 0.9500",
+        "outlier  two\\n.wav drop 2: e 0.9500",
         "Without them:\n  mean e   0.90039 ± 0.00033",
         "no more than they claim",
     ] {
