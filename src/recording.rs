@@ -4,9 +4,11 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::Error;
-use crate::analysis::{Listener, Settings, analyze_labelled};
+use crate::analysis::{Listener, Settings, analyze_labelled, fit_times};
 use crate::audio::{Ending, Stream};
 use crate::report::labels::Marked;
+use crate::report::rule::RuleReport;
+use crate::report::times::Typed;
 use crate::report::{Analysis, RecordingInfo, Report, Warning, WarningCode};
 use crate::rules::{Rule, judge};
 
@@ -93,17 +95,13 @@ impl Request<'_> {
         let repairs = ending.warnings.into_iter();
         let repairs = repairs.map(|message| Warning::new(WarningCode::Repaired, message));
         let of_reading = repairs.chain(lossy.then(|| of_lossy(&encoding)));
-        let judged = self.rule.map(|rule| {
-            let ball = rule.ball(settings.mass_kg, settings.diameter_m);
-            judge(&rule, &analysis.drops, ball, settings.gravity_m_per_s2)
-        });
         let recording = RecordingInfo::new(sample_rate_hz, ending.duration_s, encoding)
             .with_channel(channel + 1, channels);
         let analysis = Analysis {
             warnings: analysis.warnings.into_iter().chain(of_reading).collect(),
             ..analysis
         };
-        let rule = judged.transpose()?;
+        let rule = self.judged(&analysis, &settings)?;
         Ok(Report::new(
             name.to_owned(),
             recording,
@@ -111,6 +109,36 @@ impl Request<'_> {
             analysis,
             rule,
         ))
+    }
+
+    /// The report of times that were typed in, each with this standard error.
+    pub(crate) fn fit(&self, typed: &Typed, std_s: f64, name: &str) -> Result<Report, Error> {
+        let settings = self.settings();
+        let mut analysis = fit_times(&typed.drops_s, std_s, &settings)?;
+        analysis.warnings.extend(typed.names());
+        let last = typed.drops_s.iter().filter_map(|times| times.last());
+        let duration_s = last.copied().fold(0.0, f64::max);
+        let recording = RecordingInfo::new(0.0, duration_s, typed.in_words());
+        let rule = self.judged(&analysis, &settings)?;
+        Ok(Report::new(
+            name.to_owned(),
+            recording,
+            settings,
+            analysis,
+            rule,
+        ))
+    }
+
+    fn judged(
+        &self,
+        analysis: &Analysis,
+        settings: &Settings,
+    ) -> Result<Option<RuleReport>, Error> {
+        let judged = self.rule.map(|rule| {
+            let ball = rule.ball(settings.mass_kg, settings.diameter_m);
+            judge(&rule, &analysis.drops, ball, settings.gravity_m_per_s2)
+        });
+        judged.transpose()
     }
 
     /// The settings, with what the rule says of the ball where they do not.

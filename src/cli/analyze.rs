@@ -18,7 +18,8 @@ use crate::report::{Report, WarningCode, csv, json, text};
 
 /// Analyze one recording of a bouncing ball.
 ///
-/// Exit status: 0 a drop was found, 1 none was found, 2 the recording could not be read or an argument is wrong.
+/// Exit status: 0 a drop was found, 1 none was found, 2 the recording could not be read or an argument is wrong; with --rule
+/// 3 a drop fails and 4 the verdict is open.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   bounce-audio analyze drop.wav
@@ -107,7 +108,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     Ok(Outcome {
         note: note(arguments, &report),
         output,
-        status: u8::from(report.drops.is_empty()),
+        status: arguments
+            .rule
+            .status(&report, u8::from(report.drops.is_empty())),
     })
 }
 

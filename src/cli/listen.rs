@@ -3,13 +3,11 @@
 use std::path::Path;
 
 use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use super::quantity::{acceleration, contact_time, diameter, height, length_error, mass, time};
+use super::known::{Known, Word, one_of};
+use super::quantity::time;
 use crate::Error;
-use crate::analysis::Settings;
 use crate::audio::Stream;
-use crate::fit::model_selection::Choice;
 use crate::recording::{Channel, Request};
 use crate::report::Report;
 use crate::timing::Timing;
@@ -17,27 +15,8 @@ use crate::timing::Timing;
 /// What is known beforehand and how to listen.
 #[derive(Debug, Clone, Args)]
 pub(super) struct Listening {
-    /// Height of release, from the ball's lowest point to the surface: 30.5cm, 12in, 0.305
-    #[arg(long, value_parser = height, allow_hyphen_values = true)]
-    pub height: Option<f64>,
-    /// Standard error of the height
-    #[arg(long, value_parser = length_error, default_value = "1mm", allow_hyphen_values = true)]
-    height_error: f64,
-    /// Mass of the ball: 2.5g, 0.6kg; with --diameter the drag of the air is known, with a contact time k and c
-    #[arg(long, value_parser = mass, allow_hyphen_values = true)]
-    pub mass: Option<f64>,
-    /// Diameter of the ball: 38mm
-    #[arg(long, value_parser = diameter, allow_hyphen_values = true)]
-    pub diameter: Option<f64>,
-    /// Time in contact at each impact, if known: 1ms
-    #[arg(long, value_parser = contact_time, allow_hyphen_values = true)]
-    contact_time: Option<f64>,
-    /// Model of the intervals: constant e, and what is added to it
-    #[arg(long, default_value = "auto", value_parser = one_of(&MODELS))]
-    model: Choice,
-    /// Gravity in m/s²
-    #[arg(long, value_parser = acceleration, default_value = "9.81", allow_hyphen_values = true)]
-    gravity: f64,
+    #[command(flatten)]
+    pub known: Known,
     /// Which channel to listen to: best (the one in which impacts stand out most) or its number from 1
     #[arg(
         long,
@@ -66,9 +45,6 @@ fn channel(text: &str) -> Result<Channel, String> {
     }
 }
 
-/// A word of the command line, what it stands for and what the help says of it.
-type Word<T> = (&'static str, T, &'static str);
-
 const TIMINGS: [Word<Timing>; 4] = [
     (
         "auto",
@@ -92,62 +68,12 @@ const TIMINGS: [Word<Timing>; 4] = [
     ),
 ];
 
-const MODELS: [Word<Choice>; 8] = [
-    model(
-        Choice::Auto,
-        "All of them but viscoelastic, by what the recording supports",
-    ),
-    model(Choice::Constant, "Constant e"),
-    model(
-        Choice::Contact,
-        "The time in contact stands in every interval",
-    ),
-    model(
-        Choice::Linear,
-        "A linear ball with weight: slow impacts last longer and lose more",
-    ),
-    model(Choice::Drag, "The air slows the ball"),
-    model(Choice::Speed, "e is a power of the impact speed"),
-    model(
-        Choice::Viscoelastic,
-        "Viscoelastic spheres: 1 − e goes with the fifth root of the impact speed",
-    ),
-    model(
-        Choice::Flexible,
-        "Contact, drag, and any smooth course of e with the speed",
-    ),
-];
-
-const fn model(choice: Choice, help: &'static str) -> Word<Choice> {
-    (choice.word(), choice, help)
-}
-
-/// One of these words.
-fn one_of<T: Copy + Send + Sync + 'static>(
-    words: &'static [Word<T>],
-) -> impl TypedValueParser<Value = T> {
-    let values = words
-        .iter()
-        .map(|(word, _, help)| PossibleValue::new(*word).help(*help));
-    PossibleValuesParser::new(values).try_map(|given| {
-        let named = words.iter().find(|(word, ..)| *word == given);
-        named
-            .map(|(_, value, _)| *value)
-            .ok_or("not one of the words")
-    })
-}
-
 impl Listening {
     /// What the library is asked.
     pub(super) fn request(&self) -> Request<'static> {
-        let settings = Settings::default()
-            .height_m(self.height)
-            .height_std_m(self.height_error)
-            .gravity_m_per_s2(self.gravity)
-            .mass_kg(self.mass)
-            .diameter_m(self.diameter)
-            .contact_time_s(self.contact_time)
-            .model(self.model)
+        let settings = self
+            .known
+            .settings()
             .start_s(self.start)
             .end_s(self.end)
             .timing(self.timing);

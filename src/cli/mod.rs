@@ -5,6 +5,8 @@ mod batch;
 mod completions;
 mod evaluate;
 mod failure;
+mod fit;
+mod known;
 mod labels;
 mod limit;
 mod listen;
@@ -57,6 +59,7 @@ const LONG_VERSION: &str = concat!(
   bounce-audio analyze drop.wav                   what a recording says of the ball
   bounce-audio analyze drop.wav --height 30.5cm   the same, with the height known
   bounce-audio batch recordings                   a table of many recordings
+  bounce-audio fit times.csv --height 30.5cm      impact times typed in
   bounce-audio synth --preset pingpong -o a.wav   a recording to try it with
   bounce-audio solve --bounces 70 --total-time 7.5s --height 30.5cm --mass 2.5g
 
@@ -72,6 +75,7 @@ struct Arguments {
 enum Command {
     Analyze(analyze::Arguments),
     Batch(batch::Arguments),
+    Fit(fit::Arguments),
     Solve(solve::Arguments),
     Synth(synth::Arguments),
     Evaluate(evaluate::Arguments),
@@ -85,7 +89,7 @@ pub struct Outcome {
     pub output: String,
     /// For standard error.
     pub note: String,
-    /// 0: done; 1: it ran, but there was nothing to find.
+    /// 0: done; 1: it ran, but there was nothing to find; 3: a ball fails a rule; 4: that is undecided.
     pub status: u8,
 }
 
@@ -121,6 +125,7 @@ impl Command {
         match self {
             Self::Analyze(arguments) => analyze::run(arguments),
             Self::Batch(arguments) => batch::run(arguments),
+            Self::Fit(arguments) => fit::run(arguments),
             Self::Solve(arguments) => solve::run(arguments),
             Self::Synth(arguments) => synth::run(arguments),
             Self::Evaluate(arguments) => evaluate::run(arguments),

@@ -18,6 +18,7 @@ mod rejected;
 pub mod rule;
 mod settings;
 pub mod text;
+pub mod times;
 mod warning;
 mod wrap;
 

@@ -17,6 +17,7 @@ mod cli_suite;
 mod compressed;
 mod examples;
 mod few;
+mod fit_times;
 mod first_minute;
 mod invariance;
 mod irregular;

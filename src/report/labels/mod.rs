@@ -102,7 +102,7 @@ pub fn read(bytes: &[u8], form: Form) -> Result<Vec<Label>, Error> {
 }
 
 /// The text of a file; Praat writes UTF-16 where a text is not all ASCII, and ± is not.
-fn decoded(bytes: &[u8]) -> Option<String> {
+pub(super) fn decoded(bytes: &[u8]) -> Option<String> {
     let (pairs, first_is_high) = match bytes {
         [0xfe, 0xff, pairs @ ..] => (pairs, true),
         [0xff, 0xfe, pairs @ ..] => (pairs, false),

@@ -39,9 +39,9 @@ impl Given {
     /// How to listen to the file: what it is given counts before what all are.
     pub(super) fn over(self, all: &Listening) -> Listening {
         let mut listening = all.clone();
-        listening.height = self.height_m.or(all.height);
-        listening.mass = self.mass_kg.or(all.mass);
-        listening.diameter = self.diameter_m.or(all.diameter);
+        listening.known.height = self.height_m.or(all.known.height);
+        listening.known.mass = self.mass_kg.or(all.known.mass);
+        listening.known.diameter = self.diameter_m.or(all.known.diameter);
         listening
     }
 }

@@ -1,0 +1,156 @@
+//! `bounce-audio fit`: impact times typed in.
+
+use std::fs;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::Outcome;
+use super::known::{Known, Word, one_of};
+use super::listen::name;
+use super::quantity::time;
+use super::rule::RuleArguments;
+use crate::Error;
+use crate::recording::Request;
+use crate::report::text::Detail;
+use crate::report::times::{self, Decimal, Kind, Reading, Unit};
+use crate::report::{Report, csv, json, text};
+
+/// Fit impact times that were measured otherwise: by a light gate, a video, a stopwatch.
+///
+/// A line holds a time, or the interval to the next impact, and in a second column which drop it is of; a heading may name
+/// both and the unit. What can be read in two ways is asked about.
+///
+/// Exit status: 0 fitted, 2 the list could not be read or an argument is wrong; with --rule 3 a drop fails and 4 the verdict
+/// is open.
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  bounce-audio fit times.csv --height 30.5cm
+  bounce-audio fit intervals.csv --unit ms --time-error 0.1ms
+  printf '0.823\\n0.741\\n0.667\\n' | bounce-audio fit - --height 1m
+
+A list with two drops, in ms:
+  time [ms];drop
+  0;first
+  512,5;first
+  0;second
+  508;second")]
+pub(super) struct Arguments {
+    /// A list of times or intervals (CSV, tabs or blanks between columns), or - for standard input
+    file: PathBuf,
+    /// What the numbers are [default: by the heading, else whether they grow or shrink]
+    #[arg(long = "as", value_name = "KIND", value_parser = one_of(&KINDS))]
+    kind: Option<Kind>,
+    /// Unit of the numbers [default: by the heading, else that in which the flights are those of a ball]
+    #[arg(long, value_parser = one_of(&UNITS))]
+    unit: Option<Unit>,
+    /// What stands before the decimals [default: as the list shows]
+    #[arg(long, value_name = "MARK", value_parser = one_of(&DECIMALS))]
+    decimal: Option<Decimal>,
+    /// Standard error of each time [default: 1 ms, or that of the rounding if it is more]
+    #[arg(long, value_parser = time, allow_hyphen_values = true)]
+    time_error: Option<f64>,
+    #[command(flatten)]
+    known: Known,
+    /// Form of the result
+    #[arg(long, value_enum, default_value_t = Format::Text)]
+    format: Format,
+    /// One line a drop for a shell script: e, its error, bounces, seconds, warnings, file
+    #[arg(short, long, conflicts_with = "verbose")]
+    quiet: bool,
+    /// In the text also the plain formulas, every bounce and the models compared
+    #[arg(short, long, visible_alias = "table")]
+    verbose: bool,
+    #[command(flatten)]
+    rule: RuleArguments,
+}
+
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum Format {
+    /// For a person
+    Text,
+    /// For programs: everything
+    Json,
+    /// One row per impact
+    Csv,
+}
+
+const KINDS: [Word<Kind>; 2] = [
+    (Kind::Times.word(), Kind::Times, "When the ball hit"),
+    (
+        Kind::Intervals.word(),
+        Kind::Intervals,
+        "From one impact to the next",
+    ),
+];
+
+const UNITS: [Word<Unit>; 3] = [
+    (Unit::Seconds.word(), Unit::Seconds, "Seconds"),
+    (Unit::Milliseconds.word(), Unit::Milliseconds, "Thousandths"),
+    (Unit::Microseconds.word(), Unit::Microseconds, "Millionths"),
+];
+
+const DECIMALS: [Word<Decimal>; 2] = [
+    (Decimal::Point.word(), Decimal::Point, "As in 0.5"),
+    (Decimal::Comma.word(), Decimal::Comma, "As in 0,5"),
+];
+
+/// Standard error of a time of which nothing is said: that of a person with a label, as `analyze --label-error` has it.
+const USUAL_ERROR_S: f64 = 1e-3;
+
+pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let report = report(arguments).map_err(|e| e.in_file(told(&arguments.file)))?;
+    let detail = match (arguments.quiet, arguments.verbose) {
+        (true, _) => Detail::Answer,
+        (false, false) => Detail::Usual,
+        (false, true) => Detail::Everything,
+    };
+    let output = match arguments.format {
+        Format::Text => text::to_text(&report, detail),
+        Format::Csv => csv::to_csv(&report),
+        Format::Json => json::to_json(&report).map_err(io::Error::from)?,
+    };
+    Ok(Outcome {
+        status: arguments.rule.status(&report, 0),
+        ..Outcome::of(output)
+    })
+}
+
+fn told(file: &Path) -> &Path {
+    if file == Path::new("-") {
+        Path::new("standard input")
+    } else {
+        file
+    }
+}
+
+fn report(arguments: &Arguments) -> Result<Report, Error> {
+    let request = Request {
+        settings: arguments.known.settings(),
+        rule: arguments.rule.rule,
+        ..Request::default()
+    };
+    let bytes = if arguments.file == Path::new("-") {
+        let mut bytes = Vec::new();
+        io::stdin().read_to_end(&mut bytes)?;
+        bytes
+    } else {
+        fs::read(&arguments.file)?
+    };
+    let typed = times::read(&bytes, arguments.reading())?;
+    let std_s = arguments
+        .time_error
+        .unwrap_or(USUAL_ERROR_S.max(typed.rounding_std_s));
+    request.fit(&typed, std_s, &name(&arguments.file))
+}
+
+impl Arguments {
+    const fn reading(&self) -> Reading {
+        Reading {
+            kind: self.kind,
+            unit: self.unit,
+            decimal: self.decimal,
+        }
+    }
+}
