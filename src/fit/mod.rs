@@ -6,10 +6,12 @@
 mod banded;
 mod bend;
 pub mod bounces;
+pub mod curve;
 mod fitted;
 pub mod flights;
 mod found;
 mod grid;
+pub mod groups;
 mod hypotheses;
 pub mod irregular;
 mod least_squares;
