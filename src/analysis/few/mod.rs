@@ -1,5 +1,6 @@
 //! Drops of two or three impacts, which are sought where no chain was found.
 
+mod onset;
 mod rebound;
 mod sounds;
 
@@ -8,7 +9,6 @@ pub(super) use rebound::{answer, complete};
 use super::Settings;
 use super::drop::{self, Measured};
 use super::stretch::Stretch;
-use super::tail::Followed;
 use crate::Error;
 use crate::detect::Detector;
 use crate::event::Event;
@@ -78,12 +78,16 @@ pub(super) fn heard(
         impacts: found.impacts.iter().map(impact).collect(),
         rejected: Vec::new(),
     };
-    let followed = Followed {
-        sound: stretch.whitened(&chain),
-        chain,
-        timed: None,
+    let sound = stretch.whitened(&chain);
+    let timed = stretch.timed(&chain, &sound, settings.timing).impacts;
+    let timed = timed
+        .into_iter()
+        .map(|impact| onset::doubted(stretch, impact));
+    let chain = Chain {
+        impacts: timed.collect(),
+        ..chain
     };
-    let measured = drop::measure(stretch, followed, channel, settings)?;
+    let measured = drop::fit(stretch, chain, channel, settings)?;
     Ok(Some(Heard { found, measured }))
 }
 
