@@ -7,6 +7,7 @@
 //! cargo run --release --example found -- odd              odd bounces, splices, another surface
 //! cargo run --release --example found -- begin            first impacts that are hard to find
 //! cargo run --release --example found -- few              one to five impacts, then caught
+//! cargo run --release --example found -- rebound          two impacts from a known height
 //! cargo run --release --example found -- knocks           what knocks before a drop cost it
 //! cargo run --release --example found -- copies DIR       recordings put several times into one
 //! cargo run --release --example found -- nothing [DIR]    clips without a ball, and recordings without one
@@ -31,6 +32,7 @@ mod few;
 mod nothing;
 mod parallel;
 mod range;
+mod rebound;
 mod trial;
 
 use std::env;
@@ -46,12 +48,13 @@ fn main() {
         ["odd"] => bounces::odd(),
         ["begin"] => begin::table(),
         ["few"] => few::table(),
+        ["rebound"] => rebound::table(),
         ["knocks"] => company::knocks(),
         ["copies", folder] => copies::table(Path::new(folder)),
         ["nothing"] => nothing::table(None),
         ["nothing", folder] => nothing::table(Some(Path::new(folder))),
         _ => eprintln!(
-            "found range | scatter | alternating | odd | begin | few | knocks | copies DIR | nothing [DIR]"
+            "found range | scatter | alternating | odd | begin | few | rebound | knocks | copies DIR | nothing [DIR]"
         ),
     }
 }

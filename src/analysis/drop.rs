@@ -2,6 +2,7 @@
 
 use super::agreement::Agreement;
 use super::bounce::{bounce, rebound_height_std_m};
+use super::first_rebound::FirstRebound;
 use super::model::Modelled;
 use super::stretch::Stretch;
 use super::tail::Followed;
@@ -80,14 +81,20 @@ impl Measured {
         let of_height = height
             .warning
             .filter(|w| cut.is_none() || w.code != WarningCode::EndedEarly);
-        let warnings = of_height.into_iter().chain(modelled.warnings);
+        let warnings = of_height.into_iter().chain(modelled.warnings.clone());
         let warnings = warnings.chain(self.given).chain(cut);
         let warnings = warnings.chain(agreement.and_then(|a| a.warning()));
         let warnings = warnings.chain(irregular::warnings(&irregular, self.regularity.alternation));
+        let first_flight = Flights::between(timed).after(0);
+        let rebound = match first_flight.filter(|_| height.first_rebound.is_some()) {
+            Some(flight_s) => FirstRebound::of(timed, flight_s, &modelled, settings)?,
+            None => None,
+        };
         Ok(Drop {
             channel: extent.first_channel + self.channel + 1,
             bounces: self.bounces,
             observed_time_s: observed_s(timed),
+            first_rebound: rebound.map(|r| r.rebound()),
             total_time_s: total.map(|t| t.total_time_s),
             restitution: modelled.restitution,
             estimates,
@@ -112,7 +119,7 @@ impl Measured {
         let ratio = Flights::between(timed).ratio();
         let answer = few::answer(timed, self.modelled, settings)?;
         // An impact before the first would not let its flight fit the height.
-        let fits = answer.first_rebound.is_some();
+        let fits = answer.estimate.is_some();
         let of_sound = self.warnings.into_iter();
         let of_sound = of_sound.filter(|w| !(fits && w.code == WarningCode::LateStart));
         let warnings = answer.warnings.into_iter().chain(self.given);
@@ -124,7 +131,8 @@ impl Measured {
             observed_time_s: observed_s(timed),
             total_time_s: None,
             restitution: answer.modelled.restitution,
-            estimates: estimates(ratio, None, answer.first_rebound),
+            estimates: estimates(ratio, None, answer.estimate),
+            first_rebound: answer.first_rebound,
             scatter: Scatter {
                 timing_std_s: median_std(timed),
                 bounce_std: None,

@@ -8,6 +8,7 @@ mod candidate;
 mod drop;
 mod few;
 mod findings;
+mod first_rebound;
 mod irregular;
 mod labelled;
 mod listener;

@@ -6,13 +6,16 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::Outcome;
+use super::document::{DocumentArguments, pictures, section};
 use super::labels::LabelArguments;
 use super::listen::{Listening, listen_to_file};
-use super::picture::{Target, check_readable_twice, draw_sheets};
+use super::picture::{Target, check_readable_twice, draw_sheets, figures};
 use super::rule::RuleArguments;
 use crate::Error;
 use crate::audio::Stream;
+use crate::plot::Figure;
 use crate::recording::Request;
+use crate::report::html::Content;
 use crate::report::text::Detail;
 use crate::report::{Report, WarningCode, csv, json, text};
 
@@ -31,6 +34,7 @@ use crate::report::{Report, WarningCode, csv, json, text};
                                                       export the labels)
   bounce-audio analyze drop.wav --impacts drop.txt   (fit what was edited)
   bounce-audio analyze drop.wav --rule ittf-ball
+  bounce-audio analyze drop.wav --report drop.html --note 'steel on granite, 21 °C'
   bounce-audio analyze voice-memo.m4a
   bounce-audio analyze -q drop.wav | while read -r e error bounces seconds \\
       warnings file; do echo \"$file: $e\"; done
@@ -56,6 +60,8 @@ pub(super) struct Arguments {
     labels: LabelArguments,
     #[command(flatten)]
     rule: RuleArguments,
+    #[command(flatten)]
+    document: DocumentArguments,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -70,7 +76,8 @@ enum Format {
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let target = arguments.plot.as_deref().map(Target::new).transpose()?;
-    if target.is_some() {
+    arguments.document.check()?;
+    if target.is_some() || arguments.document.report.is_some() {
         check_readable_twice(&arguments.file)?;
     }
     let labels = arguments.labels.given()?;
@@ -97,6 +104,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(target) = target {
         draw_sheets(&target, &arguments.file, &report)?;
     }
+    keep(&arguments.document, &arguments.file, &report, figures)?;
     let output = match arguments.format {
         Format::Text => {
             let advice = |code| advice(&report, code);
@@ -112,6 +120,34 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             .rule
             .status(&report, u8::from(report.drops.is_empty())),
     })
+}
+
+/// Writes the page of a report, if one was asked for.
+pub(super) fn keep(
+    document: &DocumentArguments,
+    file: &Path,
+    report: &Report,
+    figures: impl FnOnce(&Path, &Report) -> Result<Vec<Figure>, Error>,
+) -> Result<(), Error> {
+    let usual = text::to_text(report, Detail::Usual);
+    let (answer, words) = usual.split_once('\n').unwrap_or((&usual, ""));
+    let parts = || {
+        Ok(vec![
+            section("What it means", Content::Text(words.to_owned())),
+            pictures(&figures(file, report)?)?,
+            section(
+                "In full",
+                Content::Text(text::to_text(report, Detail::Everything)),
+            ),
+        ])
+    };
+    document.write(
+        &report.file,
+        vec![answer.to_owned()],
+        parts,
+        &report.settings,
+        &[file],
+    )
 }
 
 /// Why a result without a drop has no row and no line.

@@ -7,11 +7,15 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 
 use super::Outcome;
+use super::analyze::keep;
+use super::document::DocumentArguments;
 use super::known::{Known, Word, one_of};
 use super::listen::name;
+use super::picture::{Target, check_readable_twice, draw_all};
 use super::quantity::time;
 use super::rule::RuleArguments;
 use crate::Error;
+use crate::picture::sheet::sheets_of_times;
 use crate::recording::Request;
 use crate::report::text::Detail;
 use crate::report::times::{self, Decimal, Kind, Reading, Unit};
@@ -62,8 +66,13 @@ pub(super) struct Arguments {
     /// In the text also the plain formulas, every bounce and the models compared
     #[arg(short, long, visible_alias = "table")]
     verbose: bool,
+    /// Draw flights, e and heights into this picture; of several drops OUT-1.svg, OUT-2.svg, …
+    #[arg(long, value_name = "OUT.svg|png")]
+    plot: Option<PathBuf>,
     #[command(flatten)]
     rule: RuleArguments,
+    #[command(flatten)]
+    document: DocumentArguments,
 }
 
 #[derive(Debug, Clone, Copy, ValueEnum)]
@@ -100,7 +109,21 @@ const DECIMALS: [Word<Decimal>; 2] = [
 const USUAL_ERROR_S: f64 = 1e-3;
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    let target = arguments.plot.as_deref().map(Target::new).transpose()?;
+    arguments.document.check()?;
+    if arguments.document.report.is_some() {
+        check_readable_twice(&arguments.file)?;
+    }
     let report = report(arguments).map_err(|e| e.in_file(told(&arguments.file)))?;
+    if let Some(target) = target {
+        draw_all(&target, &sheets_of_times(&report))?;
+    }
+    keep(
+        &arguments.document,
+        &arguments.file,
+        &report,
+        |_, report| Ok(sheets_of_times(report)),
+    )?;
     let detail = match (arguments.quiet, arguments.verbose) {
         (true, _) => Detail::Answer,
         (false, false) => Detail::Usual,

@@ -3,6 +3,7 @@
 mod analyze;
 mod batch;
 mod completions;
+mod document;
 mod evaluate;
 mod failure;
 mod fit;
@@ -15,6 +16,7 @@ mod output;
 mod picture;
 mod quantity;
 mod rule;
+mod sha256;
 mod solve;
 mod synth;
 mod terminal;

@@ -80,9 +80,9 @@ pub(super) fn check_readable_twice(recording: &Path) -> Result<(), Error> {
         || std::fs::metadata(recording).is_ok_and(|m| !m.is_file() && !m.is_dir());
     if once {
         return Err(Error::Argument {
-            argument: "--plot",
+            argument: "--plot or --report",
             got: "for a pipe".to_owned(),
-            expected: "a file: the recording is read a second time for its picture, so store it first",
+            expected: "a file: it is read a second time for its picture, so store it first",
         });
     }
     Ok(())
@@ -90,6 +90,21 @@ pub(super) fn check_readable_twice(recording: &Path) -> Result<(), Error> {
 
 /// Draws the sheets of a report on the recording in a file: into the target, or, of several drops, each into its own.
 pub(super) fn draw_sheets(target: &Target, file: &Path, report: &Report) -> Result<(), Error> {
+    draw_all(target, &figures(file, report)?)
+}
+
+/// One picture into the target, several each into its own.
+pub(super) fn draw_all(target: &Target, figures: &[Figure]) -> Result<(), Error> {
+    match figures {
+        [only] => target.draw(only),
+        several => (1..)
+            .zip(several)
+            .try_for_each(|(number, figure)| target.numbered(number).draw(figure)),
+    }
+}
+
+/// The sheets of a report on the recording in a file.
+pub(super) fn figures(file: &Path, report: &Report) -> Result<Vec<Figure>, Error> {
     let drops = report.drops.len();
     if drops > MOST_SHEETS {
         return Err(Error::Argument {
@@ -99,13 +114,7 @@ pub(super) fn draw_sheets(target: &Target, file: &Path, report: &Report) -> Resu
         });
     }
     let sounds = hear(file, report).map_err(|e| e.in_file(file))?;
-    let figures = sheets(report, &sounds);
-    match figures.as_slice() {
-        [only] => target.draw(only),
-        several => (1..)
-            .zip(several)
-            .try_for_each(|(number, figure)| target.numbered(number).draw(figure)),
-    }
+    Ok(sheets(report, &sounds))
 }
 
 /// Reads the recording again, for what its pictures need.

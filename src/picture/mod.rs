@@ -1,10 +1,11 @@
 //! The pictures of results: pure functions of a report and of the little that was kept of its sound.
 //!
-//! [`sheet`] shows one drop of a recording on one sheet, [`batch`] many recordings, [`total_time`] numbers typed in.
+//! [`sheet`] shows one drop of a recording on one sheet, [`batch`] many recordings, [`curve`] e against speed over all of them, [`total_time`] numbers typed in.
 //! [`to_svg`] and [`to_png`] draw them, whatever they show.
 
 pub mod batch;
 mod bounces;
+pub mod curve;
 mod fitted;
 mod level;
 mod onsets;

@@ -9,6 +9,7 @@ use crate::report::{Drop, Report, Warning, model_name, with_error};
 /// Width and height in pixels; without a drop there is only the level.
 const SIZE: (u32, u32) = (1400, 1560);
 const LEVEL_ONLY: (u32, u32) = (1400, 620);
+const TIMES_ONLY: (u32, u32) = (1400, 1000);
 /// Texts and lines of a sheet against those of a picture with one panel.
 const DENSITY: f64 = 0.8;
 
@@ -47,6 +48,30 @@ fn sheet(report: &Report, drop: &Drop, sound: &Sound, which: &str) -> Figure {
         size: SIZE,
         density: DENSITY,
     }
+}
+
+/// The sheets of drops whose times were typed in: what does not need their sound.
+#[must_use]
+pub fn sheets_of_times(report: &Report) -> Vec<Figure> {
+    let drops = report.drops.iter().enumerate();
+    let several = report.drops.len() > 1;
+    drops
+        .map(|(i, drop)| {
+            let bounces = Bounces::of(drop, report.settings.gravity_m_per_s2);
+            let which = several.then(|| format!(", drop {} of {}", i + 1, report.drops.len()));
+            let rows = [
+                vec![bounces.flights(), bounces.restitutions()],
+                vec![bounces.residuals(), bounces.heights()],
+            ];
+            Figure {
+                title: format!("{}{}", printable(&report.file), which.unwrap_or_default()),
+                subtitle: Some(answer(drop)),
+                rows: rows.map(|panels| Row { height: 1, panels }).to_vec(),
+                size: TIMES_ONLY,
+                density: DENSITY,
+            }
+        })
+        .collect()
 }
 
 /// e with its error, the number of impacts, and the model.

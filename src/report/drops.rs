@@ -1,6 +1,7 @@
 //! Many reports as one CSV: a row per drop, and one for a recording that has none.
 
 use super::csv::{cell, quoted};
+use super::rule::Judged;
 use super::{Drop, Report, Warning};
 use crate::fit::Estimate;
 use crate::words::words;
@@ -9,7 +10,7 @@ use crate::words::words;
 ///
 /// `drop` counts from 1 to `drops`, the number of drops in the file. The last column holds a number or nothing: a row
 /// that was cut off, even in the middle of a quoted field, has fewer fields.
-pub const COLUMNS: [&str; 38] = [
+pub const COLUMNS: [&str; 45] = [
     "file",
     "drop",
     "drops",
@@ -42,6 +43,13 @@ pub const COLUMNS: [&str; 38] = [
     "natural_frequency_rad_per_s",
     "damping_ratio",
     "warnings",
+    "rebound_height_m",
+    "rebound_height_std_m",
+    "resilience",
+    "resilience_std",
+    "rule_outcome",
+    "rule_rebound_m",
+    "rule_rebound_std_m",
     "height_m",
     "mass_kg",
     "diameter_m",
@@ -106,7 +114,13 @@ pub fn rows(report: &Report) -> String {
         let number = (i + 1).to_string();
         let head = head(&report.file, &number, drops.len(), RowStatus::Drop, "");
         let measured = measured(drop, &report.warnings);
-        joined(&[&head[..], &measured, &tail(drop.channel)])
+        let judged = report.rule.as_ref().and_then(|rule| rule.drops.get(i));
+        joined(&[
+            &head[..],
+            &measured,
+            &rebound(drop, judged),
+            &tail(drop.channel),
+        ])
     };
     drops.iter().enumerate().map(row).collect()
 }
@@ -173,6 +187,16 @@ fn measured(drop: &Drop, of_recording: &[Warning]) -> Vec<String> {
         cell(ball.map(|b| b.damping_ratio)),
         warnings.join(" "),
     ]);
+    cells
+}
+
+/// The first rebound, and what a rule says of it.
+fn rebound(drop: &Drop, judged: Option<&Judged>) -> Vec<String> {
+    let first = drop.first_rebound.as_ref();
+    let mut cells = Vec::from(with_std(first.map(|r| r.height_m)));
+    cells.extend(with_std(first.map(|r| r.resilience)));
+    cells.push(judged.map_or_else(String::new, |j| j.outcome.to_string()));
+    cells.extend(with_std(judged.and_then(|j| j.rebound_m)));
     cells
 }
 

@@ -6,14 +6,17 @@ mod ball;
 pub mod batch;
 mod candidate;
 pub mod csv;
+pub mod curve;
 pub mod drops;
 mod estimates;
+pub mod html;
 mod impact;
 mod irregular;
 pub mod json;
 pub mod labels;
 mod model;
 mod numbers;
+mod rebound;
 mod rejected;
 pub mod rule;
 mod settings;
@@ -30,6 +33,7 @@ pub use impact::{Bounce, Impact};
 pub use irregular::{Irregular, Kind as IrregularKind};
 pub use model::{Given, Model, Parameters};
 pub(crate) use numbers::{counted, decimals, listed, short, with_error};
+pub use rebound::Rebound;
 pub use rejected::{RejectReason, Rejected};
 pub use settings::Settings;
 pub(crate) use text::model_name;
@@ -184,6 +188,9 @@ pub struct Drop {
     pub restitution: Option<Restitution>,
     /// Several ways to it, side by side.
     pub estimates: Estimates,
+    /// The rebound after the first impact; null without a height, or where the first flight does not fit it.
+    #[serde(default)]
+    pub first_rebound: Option<Rebound>,
     /// How much times and bounces scatter.
     pub scatter: Scatter,
     /// Which model the answer rests on.
@@ -221,6 +228,7 @@ impl Drop {
                 eq30: None,
                 first_rebound: None,
             },
+            first_rebound: None,
             scatter: Scatter {
                 timing_std_s: None,
                 bounce_std: None,

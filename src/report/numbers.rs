@@ -50,7 +50,12 @@ pub(crate) fn counted(count: usize, one: &str) -> String {
 /// `2`, `2 and 3`, `2, 3 and 5`.
 pub(crate) fn listed(numbers: &[usize]) -> String {
     let words: Vec<String> = numbers.iter().map(ToString::to_string).collect();
-    match words.as_slice() {
+    listed_words(&words)
+}
+
+/// The same of words.
+pub(crate) fn listed_words(words: &[String]) -> String {
+    match words {
         [most @ .., last] if !most.is_empty() => format!("{} and {last}", most.join(", ")),
         words => words.concat(),
     }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Report;
+use super::rebound::Unit;
 use crate::fit::Estimate;
 use crate::words::words;
 
@@ -53,14 +54,37 @@ words! {
     }
 }
 
+words! {
+    /// What a verdict rests on.
+    #[non_exhaustive]
+    pub enum Evidence {
+        /// The drop's own first rebound, from about the height of the rule.
+        FirstRebound = "first_rebound",
+        /// e at the speed of the rule, under the selected model.
+        Restitution = "restitution",
+    }
+}
+
+/// A verdict of a document that does not say rests on e.
+const fn of_restitution() -> Evidence {
+    Evidence::Restitution
+}
+
 /// A drop judged by a rule.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Judged {
     /// Whether the ball keeps to it.
     pub outcome: Outcome,
-    /// The mean rebound predicted for the rule's drop, in metres; null where e is not determined.
+    /// What that rests on.
+    #[serde(default = "of_restitution")]
+    pub evidence: Evidence,
+    /// The rebound from the rule's height, in metres: the drop's own, or the mean that is predicted; null where e is not
+    /// determined.
     pub rebound_m: Option<Estimate>,
+    /// The mean that e at the rule's speed predicts, where the drop's own rebound decides.
+    #[serde(default)]
+    pub fitted_rebound_m: Option<Estimate>,
     /// Scatter of single rebounds about that, in metres.
     pub single_rebound_std_m: Option<f64>,
     /// Speed at which the ball of the rule arrives.
@@ -75,12 +99,50 @@ pub struct Judged {
     pub would_decide: Option<String>,
 }
 
+/// A rule and what it says of a lot, ball by ball.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct LotJudged {
+    /// The rule's name on the command line.
+    pub name: String,
+    /// Where it stands.
+    pub source: String,
+    /// Its height of release in metres.
+    pub drop_height_m: f64,
+    /// The rebound that it allows, in metres.
+    pub allowed_m: [f64; 2],
+    /// Whether the lot keeps to it.
+    pub outcome: Outcome,
+    /// Why not, or what is missing.
+    pub why: Option<String>,
+    /// Each ball, in the order in which they first appear.
+    pub balls: Vec<BallJudged>,
+}
+
+/// A ball judged by the mean of its drops.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[non_exhaustive]
+pub struct BallJudged {
+    /// Its name.
+    pub name: String,
+    /// How many drops have a rebound.
+    pub drops: usize,
+    /// Whether it keeps to the rule.
+    pub outcome: Outcome,
+    /// The mean that the rule asks for, of the rebounds in metres.
+    pub rebound_m: Option<Estimate>,
+    /// The highest rebound less the lowest, in metres, of two drops or more.
+    pub spread_m: Option<f64>,
+    /// Why it does not pass.
+    pub why: Option<String>,
+}
+
 /// The verdict on a drop, one entry after another.
 pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
     let Some(judged) = rule.drops.get(drop) else {
         return Vec::new();
     };
-    let unit = Unit::of(rule);
+    let unit = Unit::of(rule.drop_height_m);
     let outcome = judged.outcome.word();
     let (height, allowed) = (
         unit.shown(rule.drop_height_m, 0),
@@ -91,11 +153,19 @@ pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
         rule.name
     )];
     let rebound = judged.rebound_m.as_ref();
-    entries.extend(rebound.map(|r| format!("rebound predicted {}", unit.estimate(r))));
+    let own = judged.evidence == Evidence::FirstRebound;
+    let head = if own {
+        "its own first rebound"
+    } else {
+        "rebound predicted"
+    };
+    entries.extend(rebound.map(|r| format!("{head} {}", unit.estimate(r))));
+    let fitted = judged.fitted_rebound_m.as_ref();
+    entries.extend(fitted.map(|r| format!("by e there {}", unit.estimate(r))));
     if let (Some(e), Some([slowest, fastest]), true) = (
         judged.restitution,
         judged.measured_speeds_m_per_s,
-        judged.extrapolated,
+        judged.extrapolated && !own,
     ) {
         entries.push(format!(
             "e there is {e:.4} at {:.2} m/s, extrapolated: it was measured from {slowest:.2} to {fastest:.2} m/s",
@@ -110,7 +180,7 @@ pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
 pub(super) fn spread(report: &Report) -> Option<String> {
     let rule = report.rule.as_ref()?;
     let (spread_m, allowed) = (rule.spread_m?, rule.allowed_spread?);
-    let unit = Unit::of(rule);
+    let unit = Unit::of(rule.drop_height_m);
     Some(format!(
         "{}: the rebounds of {} drops differ by {}; by the rule those of {} drops by {} at most",
         rule.name,
@@ -121,28 +191,7 @@ pub(super) fn spread(report: &Report) -> Option<String> {
     ))
 }
 
-/// Millimetres for low drops, centimetres for high ones, as the rule books have it.
-#[derive(Debug, Clone, Copy)]
-struct Unit {
-    name: &'static str,
-    per_m: f64,
-}
-
 impl Unit {
-    fn of(rule: &RuleReport) -> Self {
-        if rule.drop_height_m < 1.0 {
-            Self {
-                name: "mm",
-                per_m: 1e3,
-            }
-        } else {
-            Self {
-                name: "cm",
-                per_m: 1e2,
-            }
-        }
-    }
-
     fn shown(self, length_m: f64, decimals: usize) -> String {
         format!("{:.decimals$} {}", self.per_m * length_m, self.name)
     }

@@ -22,18 +22,36 @@ pub struct Rule {
     pub diameter_m: f64,
     /// How far apart rebounds may be, if the rule says.
     pub allowed_spread: Option<Spread>,
+    /// How often it has each ball dropped, if it says.
+    pub drops: Option<usize>,
+    /// How many balls it takes, if it says.
+    pub balls: Option<usize>,
+    /// Which mean of the rebounds of a ball counts.
+    pub mean: Mean,
 }
 
-/// 2.7 g and 40 mm, from 305 mm on a steel block.
+/// A mean of rebounds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mean {
+    /// Their sum over their number.
+    Arithmetic,
+    /// The root of their product.
+    Geometric,
+}
+
+/// 2.7 g and 40 mm, from 305 mm on a steel block, 24 balls, of each the geometric mean of three determinations.
 const ITTF_BALL: Rule = Rule {
     name: "ittf-ball",
     about: "table tennis ball, not celluloid, on steel",
-    source: "ITTF Technical Leaflet T3, The Ball (40 mm)",
+    source: "ITTF Technical Leaflet T3, The Ball (40 mm), 2016",
     drop_height_m: 0.305,
     allowed_m: [0.240, 0.265],
     mass_kg: 2.7e-3,
     diameter_m: 0.040,
     allowed_spread: None,
+    drops: Some(3),
+    balls: Some(24),
+    mean: Mean::Geometric,
 };
 
 /// 56.0–59.4 g, 6.54–6.86 cm, from 254 cm.
@@ -46,10 +64,31 @@ const ITF_TENNIS: Rule = Rule {
     mass_kg: 57.7e-3,
     diameter_m: 0.067,
     allowed_spread: None,
+    drops: None,
+    balls: None,
+    mean: Mean::Arithmetic,
+};
+
+/// 420–445 g, 68.5–69.5 cm around, from 2 m on steel, ten drops.
+const FIFA_PRO: Rule = Rule {
+    name: "fifa-pro",
+    about: "football of size 5, on steel",
+    source: "FIFA Quality Pro, as makers of balls quote it; older versions differ",
+    drop_height_m: 2.0,
+    allowed_m: [1.35, 1.55],
+    mass_kg: 0.4325,
+    diameter_m: 0.2196,
+    allowed_spread: Some(Spread {
+        greatest_m: 0.10,
+        drops: 10,
+    }),
+    drops: Some(10),
+    balls: None,
+    mean: Mean::Arithmetic,
 };
 
 /// All of them.
-pub const RULES: [Rule; 8] = [
+pub const RULES: [Rule; 10] = [
     ITTF_BALL,
     Rule {
         name: "ittf-ball-celluloid",
@@ -63,6 +102,9 @@ pub const RULES: [Rule; 8] = [
         source: "ITTF Laws of Table Tennis, 2.1.3",
         drop_height_m: 0.300,
         allowed_m: [0.225, 0.235],
+        drops: None,
+        balls: None,
+        mean: Mean::Arithmetic,
         ..ITTF_BALL
     },
     ITF_TENNIS,
@@ -79,19 +121,24 @@ pub const RULES: [Rule; 8] = [
         allowed_m: [1.22, 1.35],
         ..ITF_TENNIS
     },
-    // 420–445 g, 68.5–69.5 cm around.
+    FIFA_PRO,
     Rule {
-        name: "fifa-pro",
-        about: "football of size 5, on steel",
-        source: "FIFA Quality Pro, as makers of balls quote it; older versions differ",
-        drop_height_m: 2.0,
-        allowed_m: [1.35, 1.55],
-        mass_kg: 0.4325,
-        diameter_m: 0.2196,
-        allowed_spread: Some(Spread {
-            greatest_m: 0.10,
-            drops: 10,
-        }),
+        name: "fifa-turf",
+        about: "football turf, with a football",
+        source: "FIFA Quality Programme for Football Turf, FIFA Quality, requirements of 2015",
+        allowed_m: [0.60, 1.00],
+        allowed_spread: None,
+        drops: None,
+        ..FIFA_PRO
+    },
+    Rule {
+        name: "fifa-turf-pro",
+        about: "football turf of the higher class, with a football",
+        source: "FIFA Quality Programme for Football Turf, FIFA Quality Pro, requirements of 2015",
+        allowed_m: [0.60, 0.85],
+        allowed_spread: None,
+        drops: None,
+        ..FIFA_PRO
     },
     // 600–650 g, 75–78 cm around; 1.2–1.4 m to the top of the ball, less its diameter.
     Rule {
@@ -103,6 +150,9 @@ pub const RULES: [Rule; 8] = [
         mass_kg: 0.625,
         diameter_m: 0.2435,
         allowed_spread: None,
+        drops: None,
+        balls: None,
+        mean: Mean::Arithmetic,
     },
 ];
 

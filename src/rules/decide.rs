@@ -40,6 +40,17 @@ pub(super) fn would_decide(rule: &Rule, drop: &Drop, rebound: Estimate, causes: 
     format!("{needed}: {}", by_budget(drop, shrink))
 }
 
+/// What would decide a drop from the rule's own height.
+pub(super) fn closer(rebound: Estimate, allowed_m: [f64; 2]) -> String {
+    match shrink(rebound, allowed_m) {
+        None => "nothing would decide it: the rebound lies on the limit itself".to_owned(),
+        Some(shrink) => format!(
+            "an error {shrink:.1} times smaller would decide it: measure the height, the mass and diameter of the ball and its \
+             contact time, or drop it several times"
+        ),
+    }
+}
+
 /// By how much the error has to shrink for the interval to leave the nearer limit; none if the value is at the limit.
 fn shrink(rebound: Estimate, allowed_m: [f64; 2]) -> Option<f64> {
     let [low, high] = rebound.interval95?;

@@ -5,9 +5,11 @@
 
 mod catalogue;
 mod decide;
+mod lot;
 mod verdict;
 
-pub use catalogue::{RULES, Rule, rule};
+pub use catalogue::{Mean, RULES, Rule, rule};
+pub use lot::judge_lot;
 
 use crate::Error;
 use crate::physics::Sphere;

@@ -1,14 +1,19 @@
 //! The rebound that a drop predicts for a rule, with its interval.
 
 use super::Rule;
-use super::decide::{Causes, would_decide};
+use super::decide::{Causes, closer, would_decide};
 use crate::Error;
 use crate::fit::Estimate;
 use crate::physics::priors::SPEED_EXPONENT_BEYOND;
 use crate::physics::{Air, DRAG_RELATIVE_STD, FlightLaw, Restitution, Sphere};
 use crate::report::Drop;
-use crate::report::rule::{Judged, Outcome};
+use crate::report::rule::{Evidence, Judged, Outcome};
 use crate::statistics::NORMAL95;
+
+/// A drop is from the rule's height if its impact is as fast within this, the logarithm of the ratio: 10 % of the height.
+const NEAR: f64 = 0.05;
+/// Fewest impacts that give an e beside that of the first rebound.
+const FEWEST_FITTED: usize = 4;
 
 /// A rule's drop of a ball.
 #[derive(Debug, Clone, Copy)]
@@ -62,9 +67,60 @@ impl<'a> Test<'a> {
         Ok(flight.rise(ln_e.exp() * speed)?.height_m)
     }
 
+    /// By the drop's own first rebound if it fell from about the rule's height, else by e at the rule's speed.
     pub(super) fn judge(&self, drop: &Drop) -> Result<Judged, Error> {
+        let fitted = self.fitted(drop)?;
+        let Some(own) = self.own(drop)? else {
+            return Ok(fitted);
+        };
+        let outcome = outcome(own, self.rule.allowed_m);
+        let undecided = outcome == Outcome::Undecided;
+        Ok(Judged {
+            outcome,
+            evidence: Evidence::FirstRebound,
+            rebound_m: Some(own),
+            // Of two impacts e is that of the first rebound too.
+            fitted_rebound_m: fitted.rebound_m.filter(|_| drop.bounces >= FEWEST_FITTED),
+            would_decide: undecided.then(|| closer(own, self.rule.allowed_m)),
+            ..fitted
+        })
+    }
+
+    /// The rebound from the rule's height by that from one near it; none where the drop was made from another.
+    ///
+    /// # Formula
+    /// `h = R·h₀·c`, with R the share of its height that the ball came back to, h₀ the rule's height and c what drag makes of R
+    /// between both heights; its relative error is that of R and that of e by the way between the speeds.
+    fn own(&self, drop: &Drop) -> Result<Option<Estimate>, Error> {
+        let Some(first) = &drop.first_rebound else {
+            return Ok(None);
+        };
+        let way = (self.speed / first.impact_speed_m_per_s).ln().abs();
+        if way > NEAR {
+            return Ok(None);
+        }
+        let ln_e = first.restitution.value.ln();
+        let at = |height_m: f64| -> Result<f64, Error> {
+            let speed = self.flight.fall(height_m)?.landing_speed_m_per_s;
+            Ok(self.flight.rise(ln_e.exp() * speed)?.height_m / height_m)
+        };
+        let (drop_m, rule_m) = (first.drop_height_m, self.rule.drop_height_m);
+        let value = first.resilience.value * rule_m * at(rule_m)? / at(drop_m)?;
+        let share = first.resilience.std_error.unwrap_or(0.0) / first.resilience.value;
+        let std = value * share.hypot(2.0 * SPEED_EXPONENT_BEYOND * way);
+        let reach = NORMAL95 * std;
+        Ok(Some(Estimate {
+            value,
+            std_error: Some(std),
+            interval95: Some([value - reach, value + reach]),
+        }))
+    }
+
+    fn fitted(&self, drop: &Drop) -> Result<Judged, Error> {
         let mut judged = Judged {
             outcome: Outcome::Undecided,
+            evidence: Evidence::Restitution,
+            fitted_rebound_m: None,
             rebound_m: None,
             single_rebound_std_m: None,
             impact_speed_m_per_s: self.speed,
@@ -146,7 +202,8 @@ impl<'a> Test<'a> {
     }
 }
 
-fn outcome(rebound: Estimate, [least, most]: [f64; 2]) -> Outcome {
+/// By its interval.
+pub(super) fn outcome(rebound: Estimate, [least, most]: [f64; 2]) -> Outcome {
     match rebound.interval95 {
         Some([low, high]) if low >= least && high <= most => Outcome::Pass,
         Some([low, high]) if high < least || low > most => Outcome::Fail,

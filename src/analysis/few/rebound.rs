@@ -1,5 +1,6 @@
 //! e of a drop of two or three impacts: by its height and first flight, or by its one ratio.
 
+use super::super::first_rebound::FirstRebound;
 use super::super::model::{self, Modelled};
 use super::super::{Settings, warnings};
 use crate::Error;
@@ -7,20 +8,19 @@ use crate::fit::Estimate;
 use crate::fit::flights::Flights;
 use crate::fit::total_time::{Missing, TimedDrop, missing};
 use crate::impact::Impact;
-use crate::physics::ends::Ends;
-use crate::physics::priors::{CONTACT_RELATIVE_STD, ONE_BOUNCE, UNKNOWN_CONTACT_STD_S};
-use crate::physics::{DRAG_RELATIVE_STD, FlightLaw};
+use crate::physics::priors::{ONE_BOUNCE, UNKNOWN_CONTACT_STD_S};
 use crate::report::{
-    self, Bounce, Method, Model, Parameters, Restitution, Warning, WarningCode, counted,
+    self, Bounce, Method, Model, Parameters, Rebound, Restitution, Warning, WarningCode, counted,
 };
-use crate::statistics::NORMAL95;
 
 /// What few impacts say.
 #[derive(Debug, Clone)]
 pub(crate) struct Answer {
     pub modelled: Modelled,
     /// e of the first impact by the height.
-    pub first_rebound: Option<Estimate>,
+    pub estimate: Option<Estimate>,
+    /// The first rebound, likewise.
+    pub first_rebound: Option<Rebound>,
     /// Speeds at the first impact, where the height tells that of arrival.
     pub first_bounce: Option<Bounce>,
     pub warnings: Vec<Warning>,
@@ -38,6 +38,7 @@ pub(crate) fn answer(
     let flights = Flights::between(timed);
     let mut answer = Answer {
         modelled: of_one_ratio(modelled),
+        estimate: None,
         first_rebound: None,
         first_bounce: None,
         warnings: Vec::new(),
@@ -54,8 +55,11 @@ pub(crate) fn answer(
         match unfit(&drop)? {
             Some(unfit) => answer.warnings.extend(warnings::of_total_time(&Err(unfit))),
             None => {
-                let rebound = Rebound::of(timed, flight_s, height_m, settings)?;
-                answer = rebound.map_or_else(|| answer.clone(), |rebound| rebound.answer(settings));
+                // Three impacts tell nothing of contact and drag.
+                let nothing = Modelled::default();
+                if let Some(rebound) = FirstRebound::of(timed, flight_s, &nothing, settings)? {
+                    answer = of_rebound(&rebound, settings)?;
+                }
             }
         }
     }
@@ -93,121 +97,42 @@ fn of_one_ratio(mut modelled: Modelled) -> Modelled {
     modelled
 }
 
-/// The first impact by the fall before it and the flight after it.
-#[derive(Debug, Clone, Copy)]
-struct Rebound {
-    arrival_m_per_s: f64,
-    arrival_std_m_per_s: f64,
-    leaving_m_per_s: f64,
-    leaving_std_m_per_s: f64,
-    /// Relative error of e by the drag, which counts in both speeds.
-    drag_std: f64,
-    drag_per_s2: Option<f64>,
-}
-
-impl Rebound {
-    /// None where the contact fills the flight.
-    ///
-    /// # Formula
-    /// ```text
-    /// v = √(2·g·h),   u = g·(T₁ − C)/2   (with drag those of its fall and flight),   e = u/v
-    /// (σ/e)² = (σ_T/T₁)² + (σ_h/2h)²,   σ_T² = s₁² + s₂² + σ_C²
-    /// ```
-    /// C is 0 with [`UNKNOWN_CONTACT_STD_S`] where it is not given. Without mass and diameter the drag counts as the ball's.
-    fn of(
-        timed: &[Impact],
-        flight_s: f64,
-        height_m: f64,
-        settings: &Settings,
-    ) -> Result<Option<Self>, Error> {
-        let law = model::law(settings)?;
-        // In air a ball weighs less.
-        let gravity = law.map_or(settings.gravity_m_per_s2, |law| law.gravity_m_per_s2());
-        let drag = law.map_or(0.0, |law| law.drag_per_s2());
-        let arrival = |height_m: f64, drag: f64| -> Result<f64, Error> {
-            Ok(FlightLaw::with_drag(gravity, drag)?
-                .fall(height_m)?
-                .landing_speed_m_per_s)
-        };
-        let (contact_s, contact_std_s) = settings
-            .contact_time_s
-            .map_or((0.0, UNKNOWN_CONTACT_STD_S), |c| {
-                (c, CONTACT_RELATIVE_STD * c)
-            });
-        let leaving = |drag: f64| Ends::of(flight_s - contact_s, drag);
-        let off = DRAG_RELATIVE_STD * drag;
-        let (Some(ends), Some(less), Some(more)) =
-            (leaving(drag), leaving(drag - off), leaving(drag + off))
-        else {
-            return Ok(None);
-        };
-        let speed = 0.5 * gravity * ends.ln_leaving.exp();
-        let std_s = timed[0].std_s.hypot(timed[1].std_s).hypot(contact_std_s);
-        let fall = arrival(height_m, drag)?;
-        let higher = arrival(height_m + settings.height_std_m, drag)?;
-        let fell = (arrival(height_m, drag + off)? / arrival(height_m, drag - off)?).ln();
-        Ok(Some(Self {
-            arrival_m_per_s: fall,
-            arrival_std_m_per_s: higher - fall,
-            leaving_m_per_s: speed,
-            leaving_std_m_per_s: speed * ends.leaving_slope * std_s,
-            drag_std: 0.5 * (more.ln_leaving - less.ln_leaving - fell).abs(),
-            drag_per_s2: law.map(|_| drag),
-        }))
-    }
-
-    fn restitution(&self) -> Estimate {
-        let value = self.leaving_m_per_s / self.arrival_m_per_s;
-        let by_speeds = (self.leaving_std_m_per_s / self.leaving_m_per_s)
-            .hypot(self.arrival_std_m_per_s / self.arrival_m_per_s);
-        let std = value * by_speeds.hypot(self.drag_std);
-        let reach = NORMAL95 * std;
-        Estimate {
-            value,
-            std_error: Some(std),
-            interval95: Some([(value - reach).max(0.0), (value + reach).min(1.0)]),
-        }
-    }
-
-    fn answer(&self, settings: &Settings) -> Answer {
-        let estimate = self.restitution();
-        let (e, std) = (estimate.value, estimate.std_error);
-        let of_law = self.drag_per_s2.map(|_| report::Given::Drag);
-        let of_contact = settings.contact_time_s.map(|_| report::Given::ContactTime);
-        let modelled = Modelled {
-            restitution: Some(Restitution {
-                estimate,
-                at_speed_m_per_s: Some(self.arrival_m_per_s),
-                method: Method::FirstRebound,
-            }),
-            model: Model {
-                given: of_contact.into_iter().chain(of_law).collect(),
-                parameters: Parameters {
-                    contact_time_s: settings.contact_time_s.map(Estimate::bare),
-                    drag_per_s2: self.drag_per_s2.map(Estimate::bare),
-                    restitution: Some(e),
-                    ..Parameters::default()
-                },
-                ..Model::default()
+/// The answer of a first rebound.
+fn of_rebound(rebound: &FirstRebound, settings: &Settings) -> Result<Answer, Error> {
+    let estimate = rebound.restitution();
+    // No ball gains.
+    let estimate = Estimate {
+        interval95: estimate.interval95.map(|[low, high]| [low, high.min(1.0)]),
+        ..estimate
+    };
+    let drag_per_s2 = model::law(settings)?.map(|law| law.drag_per_s2());
+    let of_law = drag_per_s2.map(|_| report::Given::Drag);
+    let of_contact = settings.contact_time_s.map(|_| report::Given::ContactTime);
+    let modelled = Modelled {
+        restitution: Some(Restitution {
+            estimate,
+            at_speed_m_per_s: Some(rebound.arrival_m_per_s),
+            method: Method::FirstRebound,
+        }),
+        model: Model {
+            given: of_contact.into_iter().chain(of_law).collect(),
+            parameters: Parameters {
+                contact_time_s: settings.contact_time_s.map(Estimate::bare),
+                drag_per_s2: drag_per_s2.map(Estimate::bare),
+                restitution: Some(estimate.value),
+                ..Parameters::default()
             },
-            ..Modelled::default()
-        };
-        Answer {
-            modelled,
-            first_rebound: Some(estimate),
-            first_bounce: Some(Bounce {
-                impact_speed_m_per_s: Some(self.arrival_m_per_s),
-                impact_speed_std_m_per_s: Some(self.arrival_std_m_per_s),
-                rebound_speed_m_per_s: Some(self.leaving_m_per_s),
-                rebound_speed_std_m_per_s: Some(self.leaving_std_m_per_s),
-                restitution: Some(e),
-                restitution_std: std,
-                energy_kept: Some(e * e),
-                energy_kept_std: std.map(|s| 2.0 * e * s),
-            }),
-            warnings: Vec::new(),
-        }
-    }
+            ..Model::default()
+        },
+        ..Modelled::default()
+    };
+    Ok(Answer {
+        modelled,
+        estimate: Some(estimate),
+        first_rebound: Some(rebound.rebound()),
+        first_bounce: Some(rebound.bounce()),
+        warnings: Vec::new(),
+    })
 }
 
 /// What the answer rests on.

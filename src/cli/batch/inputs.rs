@@ -19,6 +19,14 @@ pub(super) enum Input {
 }
 
 impl Input {
+    /// The path, if it is one of a file.
+    pub(super) fn recording(&self) -> Option<&Path> {
+        match self {
+            Self::Recording(path) => Some(path),
+            Self::Folder(..) => None,
+        }
+    }
+
     pub(super) fn path(&self) -> &Path {
         match self {
             Self::Recording(path) | Self::Folder(path, _) => path,

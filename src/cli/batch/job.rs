@@ -13,7 +13,10 @@ use super::plots::Plots;
 use super::screen::remarks;
 use crate::Error;
 use crate::cli::listen::{Listening, listen_to_file, name};
+use crate::recording::Request;
 use crate::report::batch::{Digest, Found};
+use crate::report::curve::Bounces;
+use crate::rules::Rule;
 
 /// What differs from file to file.
 #[derive(Debug)]
@@ -31,6 +34,7 @@ pub(super) struct Job<'a> {
     pub inputs: Vec<Input>,
     pub listening: &'a Listening,
     pub format: Format,
+    pub rule: Option<Rule>,
 }
 
 /// An input that is done.
@@ -42,6 +46,8 @@ pub(super) struct Done {
     pub digest: Digest,
     /// What to know about each drop, for the table on a terminal.
     pub remarks: Vec<String>,
+    /// Its bounces, for the curve.
+    pub bounces: Bounces,
 }
 
 impl Job<'_> {
@@ -57,6 +63,7 @@ impl Job<'_> {
                     found: Found::Failed(reason),
                 },
                 remarks: Vec::new(),
+                bounces: Bounces::default(),
             }
         })
     }
@@ -66,13 +73,12 @@ impl Job<'_> {
             Input::Recording(path) => path,
             Input::Folder(_, reason) => return Err(Error::refused(reason)),
         };
-        let given = match &self.per_file {
-            PerFile::Same => Given::default(),
-            PerFile::Table(_, table) => table.of(path).unwrap_or_default(),
-            PerFile::Pattern(pattern) => pattern.of(path)?,
+        let listening = self.given(path)?.over(self.listening);
+        let request = Request {
+            rule: self.rule,
+            ..listening.request()
         };
-        let listening = given.over(self.listening);
-        let report = listen_to_file(path, &listening.request())?;
+        let report = listen_to_file(path, &request)?;
         if let Some(plots) = &self.plots {
             plots.draw(path, &report)?;
         }
@@ -80,6 +86,16 @@ impl Job<'_> {
             rows: self.format.rows(&report)?,
             digest: Digest::from(&report),
             remarks: remarks(&report),
+            bounces: Bounces::of(&report),
+        })
+    }
+
+    /// What the table or the name says of a file.
+    pub(super) fn given(&self, path: &Path) -> Result<Given, Error> {
+        Ok(match &self.per_file {
+            PerFile::Same => Given::default(),
+            PerFile::Table(_, table) => table.of(path).unwrap_or_default(),
+            PerFile::Pattern(pattern) => pattern.of(path)?,
         })
     }
 

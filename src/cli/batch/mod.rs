@@ -1,5 +1,6 @@
 //! `bounce-audio batch`: many recordings.
 
+mod curve;
 mod format;
 mod inputs;
 mod job;
@@ -9,6 +10,7 @@ mod plots;
 mod progress;
 mod rows_file;
 mod screen;
+mod together;
 
 use std::collections::HashSet;
 use std::fs::File;
@@ -19,13 +21,19 @@ use std::thread;
 
 use clap::{Args, value_parser};
 
+use super::document::{DocumentArguments, pictures, section};
 use super::listen::{Listening, name};
 use super::output::{followed, place};
 use super::picture::Target as Picture;
+use super::rule::RuleArguments;
 use super::{Outcome, terminal};
 use crate::Error;
 use crate::picture::batch::sheet;
-use crate::report::batch::{Digest, Found, conclusion, summary};
+use crate::plot::Figure;
+use crate::report::batch::{Digest, Found, answer, conclusion, summary};
+use crate::report::curve::Bounces;
+use crate::report::html::Content;
+use curve::CurveArguments;
 use format::{Format, ReadBack};
 use inputs::Input;
 use job::{Job, PerFile};
@@ -34,6 +42,7 @@ use plots::Plots;
 use progress::Progress;
 use rows_file::{Resumed, RowsFile, check_is_file, partial};
 use screen::Screen;
+use together::{GroupBy, Together};
 
 /// Analyze many recordings: files, and folders with all that is in them.
 ///
@@ -43,13 +52,17 @@ use screen::Screen;
 ///
 /// A terminal gets a table that fits it; the rows go into a pipe, or into the file of -o.
 ///
-/// Exit status: 0 a drop in every file, 1 some file failed or had none, 2 what was asked could not be done.
+/// Exit status: 0 a drop in every file, 1 some file failed or had none, 2 what was asked could not be done; with --rule 3 the
+/// lot fails and 4 the verdict is open.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   bounce-audio batch recordings --height 30.5cm -o drops.csv
   bounce-audio batch recordings --pattern 'ball-{height}-{number}.wav'
   bounce-audio batch recordings --options balls.csv --format ndjson
   bounce-audio batch recordings -o drops.csv --resume
+  bounce-audio batch lot --height 30.5cm --rule ittf-ball --pattern '{ball}-{n}.wav'
+  bounce-audio batch cold warm --height 1m --group folder
+  bounce-audio batch recordings --at-speed 1,2,4 --curve e-against-speed.svg
 
 A table for --options has a line per file; what is empty is as for all:
   file,height,mass,diameter
@@ -74,12 +87,16 @@ pub(super) struct Arguments {
     /// Replace OUT if it is there, and without --resume what an interrupted run left
     #[arg(long, requires = "output")]
     force: bool,
-    /// Height, mass and diameter of each file, by its name or the end of its path
+    /// Height, mass, diameter, ball and group of each file, by its name or the end of its path
     #[arg(long, value_name = "TABLE.csv")]
     options: Option<PathBuf>,
-    /// Read {height}, {mass} and {diameter}, with units, from the names; any other word in braces stands for anything
+    /// Read {height}, {mass} and {diameter}, with units, {ball} and {group} from the names; any other word in braces stands for
+    /// anything
     #[arg(long, conflicts_with = "options")]
     pattern: Option<Pattern>,
+    /// Compare groups of drops: those of each folder, or of each {group} of --pattern or of the column group of --options
+    #[arg(long, value_enum, value_name = "BY")]
+    group: Option<GroupBy>,
     /// Draw e of each drop with its interval, and a histogram
     #[arg(long, value_name = "OUT.svg|png")]
     plot: Option<PathBuf>,
@@ -88,9 +105,17 @@ pub(super) struct Arguments {
     plots: Option<PathBuf>,
     #[command(flatten)]
     listening: Listening,
+    #[command(flatten)]
+    rule: RuleArguments,
+    #[command(flatten)]
+    curve: CurveArguments,
+    #[command(flatten)]
+    document: DocumentArguments,
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    arguments.curve.check()?;
+    arguments.document.check()?;
     arguments.listening.request().settings.check()?;
     let plot = arguments.plot.as_deref().map(Picture::new).transpose()?;
     let inputs = inputs::gather(&arguments.paths)?;
@@ -104,6 +129,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         inputs,
         listening: &arguments.listening,
         format: arguments.format(),
+        rule: arguments.rule.rule,
     };
     check_apart(arguments, &job)?;
     job.plots.as_ref().map_or(Ok(()), Plots::make)?;
@@ -116,6 +142,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         let done = digests.iter().map(|digest| screen.rows(digest, &[]));
         let _: ControlFlow<()> = print(&(screen.heading() + &done.collect::<String>()))?;
     }
+    let mut bounces = Bounces::default();
     let progress = Progress::new(job.inputs.len(), digests.len());
     let done = ordered::in_order(
         threads(arguments, &job),
@@ -134,6 +161,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
                 }
             })?;
             digests.push(done.digest);
+            bounces.append(done.bounces);
             Ok(flow)
         },
     );
@@ -144,14 +172,52 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     } else {
         summary(&digests)
     });
+    let together = Together::of(&job, arguments.group, &digests);
+    say(&together.said);
+    let curve = arguments.curve.told(bounces)?;
     if let Some(plot) = plot {
         plot.draw(&sheet(&plots::rows(&digests)))?;
     }
+    let told = together.said + &curve.said;
+    keep(arguments, &job, &digests, &told, curve.figure)?;
     let found = |d: &Digest| matches!(d.found, Found::Drops(_));
+    let whole = digests.iter().all(found);
     Ok(Outcome {
-        status: u8::from(!digests.iter().all(found)),
+        status: if whole { together.status } else { 1 },
         ..Outcome::of(String::new())
     })
+}
+
+/// Writes the page of a batch, if one was asked for.
+fn keep(
+    arguments: &Arguments,
+    job: &Job<'_>,
+    digests: &[Digest],
+    told: &str,
+    curve: Option<Figure>,
+) -> Result<(), Error> {
+    let parts = || {
+        let figures: Vec<Figure> = [sheet(&plots::rows(digests))]
+            .into_iter()
+            .chain(curve)
+            .collect();
+        let mut parts = vec![section("All drops", Content::Text(conclusion(digests)))];
+        if !told.is_empty() {
+            parts.push(section(
+                "Verdict, groups, curve",
+                Content::Text(told.trim_start().to_owned()),
+            ));
+        }
+        parts.push(pictures(&figures)?);
+        parts.push(section("Each drop", Content::Text(summary(digests))));
+        Ok(parts)
+    };
+    let answer = vec![answer(digests)];
+    let files: Vec<&Path> = job.inputs.iter().filter_map(Input::recording).collect();
+    let settings = arguments.listening.request().settings;
+    arguments
+        .document
+        .write("Many drops", answer, parts, &settings, &files)
 }
 
 /// The table for the terminal on standard output, unless rows were asked for there.
@@ -170,7 +236,12 @@ fn check_apart(arguments: &Arguments, job: &Job<'_>) -> Result<(), Error> {
     let rows = rows.flat_map(|path| [path.clone(), partial(&followed(path))]);
     let sheets = job.plots.iter().flat_map(|plots| plots.sheets(&job.inputs));
     let mut places = HashSet::new();
-    for path in rows.chain(arguments.plot.clone()).chain(sheets) {
+    for path in rows
+        .chain(arguments.plot.clone())
+        .chain(arguments.curve.path().cloned())
+        .chain(arguments.document.report.clone())
+        .chain(sheets)
+    {
         if !places.insert(place(&path)) {
             let problem = "two results would be written here: give them names of their own";
             return Err(Error::refused(problem).in_file(path));

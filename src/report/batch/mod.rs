@@ -1,9 +1,18 @@
 //! Many recordings in short: a line for each, and the mean of their drops.
 
+mod groups;
+mod rebound;
+mod rule;
+
+pub use groups::compared;
+pub use rule::verdict;
+
 use super::numbers::{counted, digits_for, plus_minus};
+use super::rule::{Judged, Outcome};
 use super::wrap::wrapped;
 use super::{Drop, Report};
 use crate::fit::Estimate;
+use crate::fit::groups::{Levelled, Member};
 use crate::fit::random_effects::{Measurement, OutlyingMeasurement, RandomEffects, outliers};
 
 /// χ² as great as theirs by chance is rarer than this: they differ by more than they claim.
@@ -32,13 +41,29 @@ pub enum Found {
 }
 
 /// One drop in short.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct DropDigest {
     /// Impacts heard.
     pub bounces: usize,
     /// e of the selected model.
     pub restitution: Option<Estimate>,
+    /// The speed that this e belongs to.
+    pub at_speed_m_per_s: Option<f64>,
+    /// The share of its height that the drop came back to at first.
+    pub resilience: Option<Measurement>,
+    /// What a rule says of it.
+    pub judged: Option<JudgedDigest>,
+}
+
+/// The verdict on a drop in short.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct JudgedDigest {
+    /// Whether it keeps to the rule.
+    pub outcome: Outcome,
+    /// The rebound from the rule's height in metres, with its standard error if it has one.
+    pub rebound_m: Option<(f64, Option<f64>)>,
 }
 
 #[cfg(test)]
@@ -56,6 +81,9 @@ impl DropDigest {
         Self {
             bounces,
             restitution,
+            at_speed_m_per_s: None,
+            resilience: None,
+            judged: None,
         }
     }
 }
@@ -65,8 +93,31 @@ impl From<&Drop> for DropDigest {
         Self {
             bounces: drop.bounces,
             restitution: drop.restitution.as_ref().map(|r| r.estimate),
+            at_speed_m_per_s: drop.restitution.as_ref().and_then(|r| r.at_speed_m_per_s),
+            resilience: drop
+                .first_rebound
+                .as_ref()
+                .and_then(|r| weighed(r.resilience)),
+            judged: None,
         }
     }
+}
+
+impl From<&Judged> for JudgedDigest {
+    fn from(judged: &Judged) -> Self {
+        Self {
+            outcome: judged.outcome,
+            rebound_m: judged.rebound_m.map(|r| (r.value, r.std_error)),
+        }
+    }
+}
+
+/// A value with an error to weigh it by.
+fn weighed(estimate: Estimate) -> Option<Measurement> {
+    let std = estimate
+        .std_error
+        .filter(|std| std.is_finite() && *std > 0.0)?;
+    Some((estimate.value, std))
 }
 
 impl From<&Report> for Digest {
@@ -77,7 +128,12 @@ impl From<&Report> for Digest {
             found: if drops.is_empty() {
                 Found::Nothing(report.why_none().to_owned())
             } else {
-                Found::Drops(drops.iter().map(DropDigest::from).collect())
+                let judged = |i: usize| report.rule.as_ref()?.drops.get(i).map(JudgedDigest::from);
+                let drop = |(i, drop): (usize, &Drop)| DropDigest {
+                    judged: judged(i),
+                    ..DropDigest::from(drop)
+                };
+                Found::Drops(drops.iter().enumerate().map(drop).collect())
             },
         }
     }
@@ -105,18 +161,65 @@ pub fn summary(digests: &[Digest]) -> String {
     out + "\n" + &conclusion(digests)
 }
 
+/// The answer of a batch in one line: mean e, or why there is none.
+#[must_use]
+pub fn answer(digests: &[Digest]) -> String {
+    let conclusion = conclusion(digests);
+    let mean = conclusion
+        .lines()
+        .find_map(|line| line.strip_prefix("  mean e   "));
+    let counts = conclusion.lines().next().unwrap_or_default();
+    mean.map_or_else(|| counts.to_owned(), |mean| format!("e = {mean}"))
+}
+
 /// What all recordings say together, the last part of [`summary`].
 #[must_use]
 pub fn conclusion(digests: &[Digest]) -> String {
-    let mut measured: Vec<(String, Measurement)> = Vec::new();
+    let mut all: Vec<(String, DropDigest)> = Vec::new();
     for digest in digests {
         if let Found::Drops(drops) = &digest.found {
             let file = visible(&digest.file);
-            let named = named(&file, drops);
-            measured.extend(named.filter_map(|(name, drop)| Some((name, measurement(drop)?))));
+            all.extend(named(&file, drops).map(|(name, drop)| (name, *drop)));
         }
     }
-    counts(digests) + &together(&measured)
+    counts(digests) + &of_drops(&all)
+}
+
+/// Mean e, and the mean of the first rebounds where heights are known.
+fn of_drops(named: &[(String, DropDigest)]) -> String {
+    let weighed = named.iter().filter(|(_, drop)| measurement(drop).is_some());
+    let (names, drops): (Vec<String>, Vec<DropDigest>) = weighed.cloned().unzip();
+    let (values, levelled) = levelled(&drops);
+    let measured: Vec<(String, Measurement)> = names.into_iter().zip(values).collect();
+    let rebounds = rebound::described(named.iter().map(|(_, drop)| drop));
+    together(&measured) + &levelled + &rebounds
+}
+
+/// e of each drop with its error; where drops from different heights show that e changes with the speed, all at one speed, and
+/// a line that says so.
+fn levelled(drops: &[DropDigest]) -> (Vec<Measurement>, String) {
+    let plain: Vec<Measurement> = drops.iter().filter_map(measurement).collect();
+    let members: Vec<Member> = drops
+        .iter()
+        .filter_map(|drop| groups::member(0, drop))
+        .collect();
+    let Some(Levelled {
+        at_speed_m_per_s,
+        slope,
+        values,
+    }) = Levelled::of(&members)
+    else {
+        return (plain, String::new());
+    };
+    let said = format!(
+        "  speed    all at {at_speed_m_per_s:.2} m/s: over the drops e changes by {} for a speed greater by a factor of 2.7",
+        plus_minus(slope.value, slope.std_error.unwrap_or(0.0))
+    );
+    let values = values
+        .into_iter()
+        .zip(plain)
+        .map(|(value, (_, std))| (value, std));
+    (values.collect(), wrapped(&said, 11) + "\n")
 }
 
 /// Drops with their names: that of the file, and of several in it their number.
@@ -137,9 +240,8 @@ fn named<'a>(
 /// What the drops of one recording say together; nothing of fewer than two with an error.
 pub(super) fn together_of(drops: &[Drop]) -> String {
     let digests = drops.iter().map(DropDigest::from).enumerate();
-    let measured =
-        digests.filter_map(|(i, drop)| Some((format!("drop {}", i + 1), measurement(&drop)?)));
-    together(&measured.collect::<Vec<_>>())
+    let named = digests.map(|(i, drop)| (format!("drop {}", i + 1), drop));
+    of_drops(&named.collect::<Vec<_>>())
 }
 
 /// The text on a name, in lines no wider than a terminal. The name stays whole, with the spaces in it.
@@ -184,9 +286,7 @@ fn one(drop: &DropDigest) -> String {
 
 /// e with an error to weigh it by.
 fn measurement(drop: &DropDigest) -> Option<Measurement> {
-    let e = drop.restitution?;
-    let std = e.std_error.filter(|std| std.is_finite() && *std > 0.0)?;
-    Some((e.value, std))
+    weighed(drop.restitution?)
 }
 
 fn counts(digests: &[Digest]) -> String {
@@ -255,7 +355,7 @@ fn described(pooled: &RandomEffects) -> String {
     );
     let judged = format!(
         "  compare  they differ {} ({})",
-        compared(pooled),
+        differing(pooled),
         figures(pooled)
     );
     format!(
@@ -268,7 +368,7 @@ fn described(pooled: &RandomEffects) -> String {
 }
 
 /// Whether the drops differ by more than their errors, and by how much.
-fn compared(pooled: &RandomEffects) -> String {
+fn differing(pooled: &RandomEffects) -> String {
     if pooled.chance >= RARE {
         return "no more than they claim".to_owned();
     }

@@ -10,6 +10,7 @@ fn digest(file: &str, values: &[f64]) -> Digest {
             std_error: Some(0.001),
             interval95: Some([value - 0.002, value + 0.002]),
         }),
+        ..DropDigest::default()
     };
     Digest {
         file: file.to_owned(),
@@ -96,4 +97,33 @@ fn drops_without_an_error_are_in_no_mean() {
         "{said}"
     );
     assert!(said.ends_with("3 recordings, 3 drops\n"), "{said}");
+}
+
+#[test]
+fn drops_from_different_heights_are_compared_at_one_speed() {
+    let drop = |i: u32| {
+        let ln_speed = 0.2 * f64::from(i);
+        let value = 0.9 - 0.02 * ln_speed + 0.0004 * f64::from(i % 3);
+        DropDigest {
+            at_speed_m_per_s: Some(ln_speed.exp()),
+            ..DropDigest::new(
+                9,
+                Some(Estimate {
+                    value,
+                    std_error: Some(0.001),
+                    interval95: None,
+                }),
+            )
+        }
+    };
+    let found = Found::Drops((0..8).map(drop).collect());
+    let said = conclusion(&[Digest::new("many.wav".to_owned(), found)]);
+    assert!(
+        said.contains("they differ no more than they claim"),
+        "{said}"
+    );
+    assert!(
+        said.contains("  speed    all at 2.01 m/s: over the drops e changes by -0.0"),
+        "{said}"
+    );
 }

@@ -1,11 +1,11 @@
-//! What an answer means, in at most six lines of words.
+//! What an answer means, in at most seven lines of words.
 
 use super::entry;
 use crate::fit::model::Budget;
 use crate::fit::model_selection::ALIKE;
 use crate::fit::{Estimate, ModelKind};
 use crate::report::numbers::{odds, short, short_decimals};
-use crate::report::{Ball, Drop, Given, Model, Report};
+use crate::report::{Ball, Drop, Given, Model, Report, rebound};
 
 /// The lines of a drop, and what a rule book says of it.
 pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[String]) {
@@ -18,7 +18,8 @@ pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[Stri
             air(&drop.model, gravity).or_else(|| speed(&drop.model)),
         ),
         ("contact", contact(drop)),
-        ("rebound", rebound(drop)),
+        ("rebound", rebounds(drop)),
+        ("rest", rest(drop)),
         ("error", drop.budget.as_ref().map(causes)),
     ];
     for (head, said) in lines {
@@ -147,19 +148,20 @@ fn spring(ball: &Ball) -> String {
 
 /// How high the ball rose first, `g·T²/8`, and how long it took to rest. From where it fell is not told: e of the first and
 /// fastest impact, which nobody heard before, may be another by several hundredths.
-fn rebound(drop: &Drop) -> Option<String> {
-    let height_m = drop
-        .impacts
-        .first()
-        .and_then(|first| first.rebound_height_m);
-    let height = height_m.map(|height_m| match height_m {
+fn rebounds(drop: &Drop) -> Option<String> {
+    if let Some(measured) = &drop.first_rebound {
+        return Some(rebound::in_words(measured));
+    }
+    let first = drop.impacts.first()?;
+    Some(match first.rebound_height_m? {
         low if low < 0.9995 => format!("{:.0} mm high after the first bounce heard", 1e3 * low),
         high => format!("{high:.2} m high after the first bounce heard"),
-    });
-    let rest = drop.total_time_s;
-    let rest = rest.map(|total_s| format!("{total_s:.2} s from release to rest"));
-    let parts: Vec<String> = height.into_iter().chain(rest).collect();
-    (!parts.is_empty()).then(|| parts.join(", "))
+    })
+}
+
+fn rest(drop: &Drop) -> Option<String> {
+    let total_s = drop.total_time_s?;
+    Some(format!("{total_s:.2} s from release to rest"))
 }
 
 /// The two greatest causes of the error of e, each if it makes a fifth of its variance or more, and what makes the first smaller.
@@ -217,21 +219,19 @@ mod tests {
     #[test]
     fn the_first_rebound_is_told_in_a_unit_of_its_size() {
         let mut drop = Drop::empty();
-        assert_eq!(rebound(&drop), None);
+        assert_eq!(rebounds(&drop), None);
         let mut first = Impact::heard(0.7);
         first.rebound_height_m = Some(0.255_22);
         drop.impacts = vec![first.clone()];
         assert_eq!(
-            rebound(&drop).unwrap(),
+            rebounds(&drop).unwrap(),
             "255 mm high after the first bounce heard"
         );
         drop.impacts[0].rebound_height_m = Some(1.253);
         drop.total_time_s = Some(6.0601);
-        let told = rebound(&drop).unwrap();
-        assert_eq!(
-            told,
-            "1.25 m high after the first bounce heard, 6.06 s from release to rest"
-        );
+        let told = rebounds(&drop).unwrap();
+        assert_eq!(told, "1.25 m high after the first bounce heard");
+        assert_eq!(rest(&drop).unwrap(), "6.06 s from release to rest");
     }
 
     #[test]

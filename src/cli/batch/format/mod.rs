@@ -8,8 +8,9 @@ use serde_json::{Value, json};
 
 use crate::Error;
 use crate::fit::Estimate;
-use crate::report::batch::{Digest, DropDigest, Found};
+use crate::report::batch::{Digest, DropDigest, Found, JudgedDigest};
 use crate::report::drops::{self, COLUMNS, RowStatus};
+use crate::report::rule::Outcome;
 use crate::report::{Report, json};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -100,11 +101,22 @@ fn document(document: &Value) -> Option<Digest> {
         return Some(Digest { file, found });
     }
     let drops = document.get("drops")?.as_array()?;
+    let judged = |i: usize| {
+        document
+            .pointer(&format!("/rule/drops/{i}"))
+            .and_then(judged_document)
+    };
     let found = if drops.is_empty() {
         let reason = document.pointer("/warnings/0/message")?.as_str()?;
         Found::Nothing(reason.to_owned())
     } else {
-        Found::Drops(drops.iter().map(drop_document).collect::<Option<_>>()?)
+        let drop = |(i, drop): (usize, &Value)| {
+            Some(DropDigest {
+                judged: judged(i),
+                ..drop_document(drop)?
+            })
+        };
+        Found::Drops(drops.iter().enumerate().map(drop).collect::<Option<_>>()?)
     };
     Some(Digest { file, found })
 }
@@ -112,7 +124,14 @@ fn document(document: &Value) -> Option<Digest> {
 fn drop_document(drop: &Value) -> Option<DropDigest> {
     let e = drop.get("restitution")?;
     let number = |at: &str| e.pointer(at).and_then(Value::as_f64);
+    let share = |at: &str| {
+        drop.pointer(&format!("/first_rebound/resilience/{at}"))?
+            .as_f64()
+    };
     Some(DropDigest {
+        at_speed_m_per_s: number("/at_speed_m_per_s"),
+        resilience: share("value").zip(share("std_error")),
+        judged: None,
         bounces: usize::try_from(drop.get("bounces")?.as_u64()?).ok()?,
         restitution: number("/value").map(|value| Estimate {
             value,
@@ -121,6 +140,14 @@ fn drop_document(drop: &Value) -> Option<DropDigest> {
                 .zip(number("/interval95/1"))
                 .map(<[f64; 2]>::from),
         }),
+    })
+}
+
+fn judged_document(judged: &Value) -> Option<JudgedDigest> {
+    let number = |at: &str| judged.pointer(at).and_then(Value::as_f64);
+    Some(JudgedDigest {
+        outcome: serde_json::from_value(judged.get("outcome")?.clone()).ok()?,
+        rebound_m: number("/rebound_m/value").map(|value| (value, number("/rebound_m/std_error"))),
     })
 }
 
@@ -226,9 +253,19 @@ impl Rows {
     }
 }
 
+fn outcome(word: &str) -> Option<Outcome> {
+    let all = [Outcome::Pass, Outcome::Fail, Outcome::Undecided];
+    all.into_iter().find(|outcome| outcome.word() == word)
+}
+
 fn drop_row<'a>(text: impl Fn(&str) -> Option<&'a str>) -> Option<DropDigest> {
     let number = |column: &str| text(column).and_then(|t| t.parse::<f64>().ok());
+    let outcome = text("rule_outcome").and_then(outcome);
+    let rebound_m = number("rule_rebound_m").map(|value| (value, number("rule_rebound_std_m")));
     Some(DropDigest {
+        at_speed_m_per_s: number("at_speed_m_per_s"),
+        resilience: number("resilience").zip(number("resilience_std")),
+        judged: outcome.map(|outcome| JudgedDigest { outcome, rebound_m }),
         bounces: text("bounces")?.parse().ok()?,
         restitution: number("restitution").map(|value| Estimate {
             value,

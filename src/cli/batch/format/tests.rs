@@ -58,6 +58,7 @@ fn the_drops_of_a_file_are_read_back_with_their_place() {
     let drop = DropDigest {
         bounces: 7,
         restitution: Some(Estimate::bare(0.9)),
+        ..DropDigest::default()
     };
     assert_eq!(back.digests[1].found, Found::Drops(vec![drop, drop]));
     assert_eq!(

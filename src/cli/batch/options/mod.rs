@@ -1,4 +1,4 @@
-//! Height, mass and diameter that differ from file to file: from a table, or from the names.
+//! Height, mass, diameter, ball and group that differ from file to file: from a table, or from the names.
 
 mod pattern;
 mod table;
@@ -11,20 +11,32 @@ use crate::cli::listen::Listening;
 use crate::cli::quantity::{diameter, height, mass};
 
 /// What is known of one file beyond what the command line says of all.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Given {
     height_m: Option<f64>,
     mass_kg: Option<f64>,
     diameter_m: Option<f64>,
+    /// The ball that was dropped.
+    pub ball: Option<String>,
+    /// The group that the drop is of.
+    pub group: Option<String>,
 }
 
-/// The names of what may differ.
-const NAMES: [&str; 3] = ["height", "mass", "diameter"];
+/// The names of what may differ: quantities, then words.
+const NAMES: [&str; 5] = ["height", "mass", "diameter", "ball", "group"];
 
 impl Given {
-    /// Reads a quantity by its name, which is one of [`NAMES`].
+    /// Reads what has one of [`NAMES`].
     fn set(&mut self, name: &str, text: &str) -> Result<(), Error> {
         let (argument, value, place) = match name {
+            "ball" => {
+                self.ball = Some(text.to_owned());
+                return Ok(());
+            }
+            "group" => {
+                self.group = Some(text.to_owned());
+                return Ok(());
+            }
             "height" => ("height", height(text)?, &mut self.height_m),
             "mass" => ("mass", mass(text)?, &mut self.mass_kg),
             _ => ("diameter", diameter(text)?, &mut self.diameter_m),

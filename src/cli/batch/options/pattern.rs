@@ -17,8 +17,8 @@ pub(in crate::cli::batch) struct Pattern {
 enum Part {
     /// These very characters.
     Literal(String),
-    /// One of [`NAMES`], as a number with its unit.
-    Quantity(&'static str),
+    /// One of [`NAMES`]: a number with its unit, or a word.
+    Named(&'static str),
     /// Anything, of one character or more.
     Any,
 }
@@ -34,8 +34,8 @@ impl std::str::FromStr for Pattern {
             if !literal.is_empty() {
                 parts.push(Part::Literal(literal.to_owned()));
             }
-            let quantity = NAMES.into_iter().find(|name| *name == place);
-            parts.push(quantity.map_or(Part::Any, Part::Quantity));
+            let named = NAMES.into_iter().find(|name| *name == place);
+            parts.push(named.map_or(Part::Any, Part::Named));
             rest = after;
         }
         if !rest.is_empty() {
@@ -49,26 +49,29 @@ impl std::str::FromStr for Pattern {
 
 /// Whether there is one way only to read a name.
 fn check(parts: &[Part]) -> Result<(), String> {
-    let quantities: Vec<&Part> = parts
+    let named: Vec<&Part> = parts
         .iter()
-        .filter(|p| matches!(p, Part::Quantity(_)))
+        .filter(|p| matches!(p, Part::Named(_)))
         .collect();
-    if quantities.is_empty() {
-        return Err("it has none of {height}, {mass} and {diameter}".to_owned());
+    if named.is_empty() {
+        return Err("it has none of {height}, {mass}, {diameter}, {ball} and {group}".to_owned());
     }
-    if (1..quantities.len()).any(|i| quantities[..i].contains(&quantities[i])) {
-        return Err("it has one of {height}, {mass} and {diameter} twice".to_owned());
+    if (1..named.len()).any(|i| named[..i].contains(&named[i])) {
+        return Err(
+            "it has one of {height}, {mass}, {diameter}, {ball} and {group} twice".to_owned(),
+        );
     }
     for pair in parts.windows(2) {
         match pair {
-            [Part::Quantity(name), Part::Literal(next)]
-                if next.starts_with(char::is_alphabetic) =>
-            {
+            [
+                Part::Named(name @ ("height" | "mass" | "diameter")),
+                Part::Literal(next),
+            ] if next.starts_with(char::is_alphabetic) => {
                 return Err(format!(
                     "{{{name}}} stands for the number with its unit: {next} must not follow it"
                 ));
             }
-            [Part::Quantity(_) | Part::Any, Part::Quantity(_) | Part::Any] => {
+            [Part::Named(_) | Part::Any, Part::Named(_) | Part::Any] => {
                 return Err("something must stand between two places".to_owned());
             }
             _ => {}
@@ -88,7 +91,7 @@ impl Pattern {
         Err(Error::Argument {
             argument: "the name",
             got: format!("not of the pattern '{}'", self.text),
-            expected: "one with a quantity such as 30cm or 2.5g (a bare number is in m or kg) at each of its places",
+            expected: "one with what stands for each of its places, a quantity as 30cm or 2.5g (a bare number is in m or kg)",
         })
     }
 }
@@ -106,7 +109,7 @@ fn matched(parts: &[Part], text: &str, given: &mut Given) -> bool {
     ends.into_iter().any(|end| {
         let (place, after) = text.split_at(end);
         let read = match part {
-            Part::Quantity(name) => given.set(name, place).is_ok(),
+            Part::Named(name) => given.set(name, place).is_ok(),
             _ => true,
         };
         read && matched(rest, after, given)

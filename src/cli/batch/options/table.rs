@@ -15,7 +15,7 @@ pub(in crate::cli::batch) struct Table {
     rows: HashMap<PathBuf, Row>,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Row {
     given: Given,
     line: u64,
@@ -60,15 +60,15 @@ impl Table {
 
     /// What is given of a file.
     pub(in crate::cli::batch) fn of(&self, path: &Path) -> Option<Given> {
-        self.row(path).map(|row| row.given)
+        self.row(path).map(|row| row.given.clone())
     }
 
     /// The row that names most of the end of a path.
-    fn row(&self, path: &Path) -> Option<Row> {
+    fn row(&self, path: &Path) -> Option<&Row> {
         let path = plain(Path::new(&name(path)));
         let parts: Vec<Component<'_>> = path.components().collect();
         let mut ends = (0..parts.len()).map(|from| parts[from..].iter().collect::<PathBuf>());
-        ends.find_map(|end| self.rows.get(&end).copied())
+        ends.find_map(|end| self.rows.get(&end))
     }
 
     /// The files without a row, and the names of no file with their lines.
@@ -103,7 +103,7 @@ fn check(heading: &csv::StringRecord) -> Result<(), Error> {
     Err(Error::Argument {
         argument: "column",
         got: problem,
-        expected: "file and any of height, mass, diameter, separated by commas or by semicolons, named in the first line",
+        expected: "file and any of height, mass, diameter, ball, group, separated by commas or by semicolons, named in the first line",
     })
 }
 
@@ -118,6 +118,7 @@ fn row(
         match column {
             "file" => file = plain(Path::new(text)),
             _ if text.is_empty() => {}
+            "ball" | "group" => given.set(column, text)?,
             _ if decimal_commas => given.set(column, &text.replace(',', "."))?,
             _ => given.set(column, text)?,
         }

@@ -1,0 +1,99 @@
+//! What is asked of all drops together: the verdict of a rule on balls and lot, and groups compared.
+
+use std::path::Path;
+
+use clap::ValueEnum;
+
+use super::job::Job;
+use crate::cli::listen::name;
+use crate::cli::rule::status;
+use crate::report::batch::{Digest, DropDigest, Found, compared, verdict};
+use crate::rules::{Rule, judge_lot};
+
+/// What makes a group.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum GroupBy {
+    /// The folder that a file is in
+    Folder,
+    /// What --pattern or --options say
+    Group,
+}
+
+/// What is said behind the summary, and the exit status of the verdict.
+#[derive(Debug, Default)]
+pub(super) struct Together {
+    pub said: String,
+    pub status: u8,
+}
+
+/// A drop with the path of its file.
+type OfFile<'a> = (&'a Path, &'a str, DropDigest);
+
+impl Together {
+    pub(super) fn of(job: &Job<'_>, group: Option<GroupBy>, digests: &[Digest]) -> Self {
+        let mut together = Self::default();
+        let drops = drops(job, digests);
+        if let Some(rule) = &job.rule {
+            together.judge(job, rule, &drops);
+        }
+        if let Some(by) = group {
+            together.said += &("\n".to_owned() + &groups(job, by, &drops));
+        }
+        together
+    }
+
+    /// Each ball is that of the table or the name, else a file.
+    fn judge(&mut self, job: &Job<'_>, rule: &Rule, drops: &[OfFile<'_>]) {
+        let ball = |path: &Path, file: &str| {
+            let given = job.given(path).ok().and_then(|given| given.ball);
+            given.unwrap_or_else(|| file.to_owned())
+        };
+        let of = |(path, file, drop): &OfFile<'_>| {
+            let rebound = drop.judged.and_then(|judged| judged.rebound_m);
+            (ball(path, file), rebound)
+        };
+        let lot = judge_lot(rule, &drops.iter().map(of).collect::<Vec<_>>());
+        self.said = "\n".to_owned() + &verdict(&lot);
+        self.status = status(lot.outcome);
+    }
+}
+
+fn drops<'a>(job: &'a Job<'_>, digests: &'a [Digest]) -> Vec<OfFile<'a>> {
+    let mut drops = Vec::new();
+    for (input, digest) in job.inputs.iter().zip(digests) {
+        if let Found::Drops(found) = &digest.found {
+            let of_file = found
+                .iter()
+                .map(|drop| (input.path(), digest.file.as_str(), *drop));
+            drops.extend(of_file);
+        }
+    }
+    drops
+}
+
+/// The groups in the order in which they first appear.
+fn groups(job: &Job<'_>, by: GroupBy, drops: &[OfFile<'_>]) -> String {
+    let of = |path: &Path| match by {
+        GroupBy::Folder => Some(path.parent().map_or_else(String::new, name)),
+        GroupBy::Group => job.given(path).ok().and_then(|given| given.group),
+    };
+    let (mut names, mut members, mut without) = (Vec::new(), Vec::new(), 0);
+    for (path, _, drop) in drops {
+        let Some(group) = of(path) else {
+            without += 1;
+            continue;
+        };
+        let known = names.iter().position(|n| *n == group);
+        let index = known.unwrap_or_else(|| {
+            names.push(group);
+            names.len() - 1
+        });
+        members.push((index, *drop));
+    }
+    let left_out = match without {
+        0 => String::new(),
+        1 => "1 drop is of no group and left out\n".to_owned(),
+        several => format!("{several} drops are of no group and left out\n"),
+    };
+    compared(&names, &members) + &left_out
+}
