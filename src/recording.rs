@@ -86,7 +86,7 @@ impl Request<'_> {
         let settings = self.settings();
         let channels = stream.channels();
         let heard = self.channel.of(channels)?;
-        let sample_rate_hz = f64::from(stream.sample_rate_hz());
+        let sample_rate_hz = f64::from(stream.sample_rate_hz()) * settings.time_scale;
         let (encoding, lossy) = (stream.encoding(), stream.is_lossy());
         let (channel, analysis, ending) = match &self.labels {
             None => search(stream, &heard, &settings)?,
@@ -95,7 +95,8 @@ impl Request<'_> {
         let repairs = ending.warnings.into_iter();
         let repairs = repairs.map(|message| Warning::new(WarningCode::Repaired, message));
         let of_reading = repairs.chain(lossy.then(|| of_lossy(&encoding)));
-        let recording = RecordingInfo::new(sample_rate_hz, ending.duration_s, encoding)
+        let duration_s = ending.duration_s / settings.time_scale;
+        let recording = RecordingInfo::new(sample_rate_hz, duration_s, encoding)
             .with_channel(channel + 1, channels);
         let analysis = Analysis {
             warnings: analysis.warnings.into_iter().chain(of_reading).collect(),
@@ -117,7 +118,7 @@ impl Request<'_> {
         let mut analysis = fit_times(&typed.drops_s, std_s, &settings)?;
         analysis.warnings.extend(typed.names());
         let last = typed.drops_s.iter().filter_map(|times| times.last());
-        let duration_s = last.copied().fold(0.0, f64::max);
+        let duration_s = last.copied().fold(0.0, f64::max) / settings.time_scale;
         let recording = RecordingInfo::new(0.0, duration_s, typed.in_words());
         let rule = self.judged(&analysis, &settings)?;
         Ok(Report::new(

@@ -4,6 +4,7 @@ use super::agreement::Agreement;
 use super::bounce::{bounce, rebound_height_std_m};
 use super::first_rebound::FirstRebound;
 use super::model::Modelled;
+use super::release::release;
 use super::stretch::Stretch;
 use super::tail::Followed;
 use super::warnings::FEWEST_OF_CHAIN;
@@ -90,10 +91,12 @@ impl Measured {
             Some(flight_s) => FirstRebound::of(timed, flight_s, &modelled, settings)?,
             None => None,
         };
+        let release = first_flight.map(|t| release(timed, t, &modelled, settings));
         Ok(Drop {
             channel: extent.first_channel + self.channel + 1,
             bounces: self.bounces,
             observed_time_s: observed_s(timed),
+            release: release.transpose()?.flatten(),
             first_rebound: rebound.map(|r| r.rebound()),
             total_time_s: total.map(|t| t.total_time_s),
             restitution: modelled.restitution,
@@ -117,6 +120,10 @@ impl Measured {
     fn of_few(self, extent: Extent, settings: &Settings) -> Result<Drop, Error> {
         let timed = &self.timed;
         let ratio = Flights::between(timed).ratio();
+        let first_flight = Flights::between(timed)
+            .after(0)
+            .filter(|_| self.bounces > 2);
+        let release = first_flight.map(|t| release(timed, t, &self.modelled, settings));
         let answer = few::answer(timed, self.modelled, settings)?;
         // An impact before the first would not let its flight fit the height.
         let fits = answer.estimate.is_some();
@@ -132,6 +139,7 @@ impl Measured {
             total_time_s: None,
             restitution: answer.modelled.restitution,
             estimates: estimates(ratio, None, answer.estimate),
+            release: release.transpose()?.flatten(),
             first_rebound: answer.first_rebound,
             scatter: Scatter {
                 timing_std_s: median_std(timed),

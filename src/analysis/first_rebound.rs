@@ -32,8 +32,8 @@ pub(super) struct FirstRebound {
 
 /// What is known of contact and drag.
 #[derive(Debug, Clone, Copy)]
-struct Course {
-    contact_s: Sized,
+pub(super) struct Course {
+    pub contact_s: Sized,
     gravity_m_per_s2: f64,
     drag_per_s2: Sized,
 }
@@ -41,7 +41,7 @@ struct Course {
 impl Course {
     /// By what is given, else by what the flights say. Where they say nothing the contact is 0 with
     /// [`UNKNOWN_CONTACT_STD_S`], and the drag counts as the ball's.
-    fn of(modelled: &Modelled, settings: &Settings) -> Result<Self, Error> {
+    pub(super) fn of(modelled: &Modelled, settings: &Settings) -> Result<Self, Error> {
         let law = model::law(settings)?;
         let given = settings.contact_time_s;
         let given = given.map(|c| (c, CONTACT_RELATIVE_STD * c));
@@ -58,19 +58,23 @@ impl Course {
     }
 
     /// The flight with the drag off by so many of its standard deviations.
-    fn law(&self, off: f64) -> Result<FlightLaw, Error> {
+    pub(super) fn law(&self, off: f64) -> Result<FlightLaw, Error> {
         let (drag, std) = self.drag_per_s2;
         FlightLaw::with_drag(self.gravity_m_per_s2, (drag + off * std).max(0.0))
     }
 
     /// The start of a flight between two touches, with the drag off likewise; none where the contact fills the flight.
-    fn ends(&self, flight_s: f64, off: f64) -> Option<Ends> {
+    pub(super) fn ends(&self, flight_s: f64, off: f64) -> Option<Ends> {
         let (drag, std) = self.drag_per_s2;
         Ends::of(flight_s - self.contact_s.0, (drag + off * std).max(0.0))
     }
 
-    fn leaving_m_per_s(&self, ends: &Ends) -> f64 {
+    pub(super) fn leaving_m_per_s(&self, ends: &Ends) -> f64 {
         0.5 * self.gravity_m_per_s2 * ends.ln_leaving.exp()
+    }
+
+    pub(super) fn landing_m_per_s(&self, ends: &Ends) -> f64 {
+        0.5 * self.gravity_m_per_s2 * ends.ln_landing.exp()
     }
 }
 
@@ -122,7 +126,7 @@ impl FirstRebound {
             arrival_m_per_s: fall,
             arrival_std_m_per_s: higher - fall,
             leaving_m_per_s: leaving,
-            leaving_std_m_per_s: leaving * middle.leaving_slope * std_s,
+            leaving_std_m_per_s: leaving * (middle.leaving_slope * std_s).hypot(settings.clock_std),
             drag_std: 0.5 * (more.ln_leaving - less.ln_leaving - fell).abs(),
             drop_height: (height_m, settings.height_std_m),
             rebound_m: rise(&middle, 0.0)?,

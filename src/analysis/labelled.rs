@@ -33,6 +33,13 @@ pub fn analyze_labelled<C: AsRef<[f32]>>(
     settings: &Settings,
 ) -> Result<(usize, Analysis), Error> {
     settings.check()?;
+    if (settings.time_scale - 1.0).abs() > 0.0 {
+        return Err(Error::argument(
+            "time scale",
+            settings.time_scale,
+            "1 where labels say the times",
+        ));
+    }
     let stretches: Vec<Stretch<'_>> = channels
         .iter()
         .map(|samples| Stretch {

@@ -14,6 +14,7 @@ mod labelled;
 mod listener;
 mod louder_before;
 mod model;
+mod release;
 mod scene;
 mod stretch;
 mod tail;

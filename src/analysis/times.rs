@@ -14,7 +14,7 @@ const FEWEST: usize = 2;
 
 /// Fits drops whose impact times were measured by other means, such as a light gate, a video or a list: what
 /// [`analyze`](crate::analyze) says once it has the times of a recording. Each drop is its times in seconds, all with the
-/// same independent standard error. Where listening starts and ends, and how impacts are timed, has no meaning here.
+/// same independent standard error, by a clock that may run at another rate (`time_scale`). Where listening starts and ends, and how impacts are timed, has no meaning here.
 ///
 /// ```
 /// use bounce_audio::{Settings, fit_times};
@@ -45,6 +45,9 @@ pub fn fit_times(
     if drops.is_empty() {
         return Err(Error::argument("number of drops", 0.0, "1 or more"));
     }
+    let passed = |times: &Vec<f64>| times.iter().map(|t| t / settings.time_scale).collect();
+    let drops: Vec<Vec<f64>> = drops.iter().map(passed).collect();
+    let time_std_s = time_std_s / settings.time_scale;
     let fitted = drops
         .iter()
         .zip(1..)
@@ -77,7 +80,7 @@ fn fitted(times_s: &[f64], number: usize, std_s: f64, settings: &Settings) -> Re
         1e3 * std_s
     );
     measured.given = Some(Warning::new(WarningCode::ImpactsGiven, message));
-    measured.within(NO_END, settings)
+    measured.within(no_end(), settings)
 }
 
 /// The levels of impacts in it are unknown, and it begins before any of them.
@@ -86,10 +89,12 @@ const NO_SOUND: Stretch<'static> = Stretch {
     listened_from_s: f64::NEG_INFINITY,
 };
 /// Times say nothing of when someone stopped listening.
-const NO_END: Extent = Extent {
-    first_channel: 0,
-    end_s: f64::INFINITY,
-};
+const fn no_end() -> Extent {
+    Extent {
+        first_channel: 0,
+        end_s: f64::INFINITY,
+    }
+}
 
 fn check(times_s: &[f64], number: usize) -> Result<(), Error> {
     let wrong = |got: String, expected| Error::Argument {

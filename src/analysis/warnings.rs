@@ -218,7 +218,8 @@ pub(super) fn of_total_time(solved: &Result<TotalTime, Missing>) -> Option<Warni
             WarningCode::HeightTooSmall,
             format!(
                 "the first flight is {first_flight_s:.3} s, but from this height it cannot exceed {longest_s:.3} s: \
-                 measure the height again; equation (25) does not apply"
+                 measure the height again, or the clock runs wrong, as that of a slowed recording does; equation (25) does not \
+                 apply"
             ),
         )),
         Err(Missing::End { left_s }) => Some(Warning::new(

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 
 use super::Outcome;
 use super::document::{DocumentArguments, pictures, section};
+use super::known::{DECIMALS, one_of};
 use super::labels::LabelArguments;
 use super::listen::{Listening, listen_to_file};
 use super::picture::{Target, check_readable_twice, draw_sheets, figures};
@@ -17,6 +18,7 @@ use crate::plot::Figure;
 use crate::recording::Request;
 use crate::report::html::Content;
 use crate::report::text::Detail;
+use crate::report::times::Decimal;
 use crate::report::{Report, WarningCode, csv, json, text};
 
 /// Analyze one recording of a bouncing ball.
@@ -47,6 +49,9 @@ pub(super) struct Arguments {
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
+    /// What stands before the decimals in CSV; with commas semicolons separate fields
+    #[arg(long, value_name = "MARK", default_value = "point", value_parser = one_of(&DECIMALS))]
+    decimal: Decimal,
     /// One line a drop for a shell script: e, its error, bounces, seconds, warnings, file
     #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
@@ -109,6 +114,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         Format::Text => {
             let advice = |code| advice(&report, code);
             text::to_text_with(&report, detail(arguments), &advice)
+        }
+        Format::Csv if arguments.decimal == Decimal::Comma => {
+            csv::with_decimal_commas(&csv::to_csv(&report))
         }
         Format::Csv => csv::to_csv(&report),
         Format::Json => json::to_json(&report).map_err(io::Error::from)?,
@@ -186,8 +194,8 @@ fn advice(report: &Report, code: WarningCode) -> Option<&'static str> {
         WarningCode::FewBounces if !height_known => "--height",
         WarningCode::FewBounces if !ball_known => "--mass and --diameter",
         WarningCode::ContactTooLong => "--contact-time",
+        WarningCode::HeightTooSmall => "--height, --time-scale",
         WarningCode::FirstImpactMissing
-        | WarningCode::HeightTooSmall
         | WarningCode::WrongHeight
         | WarningCode::NoRoot
         | WarningCode::EstimatesDisagree => "--height",

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use super::Outcome;
 use super::analyze::keep;
 use super::document::DocumentArguments;
-use super::known::{Known, Word, one_of};
+use super::known::{DECIMALS, Known, Word, one_of};
 use super::listen::name;
 use super::picture::{Target, check_readable_twice, draw_all};
 use super::quantity::time;
@@ -49,7 +49,7 @@ pub(super) struct Arguments {
     /// Unit of the numbers [default: by the heading, else that in which the flights are those of a ball]
     #[arg(long, value_parser = one_of(&UNITS))]
     unit: Option<Unit>,
-    /// What stands before the decimals [default: as the list shows]
+    /// What stands before the decimals of the list [default: as it shows], and of CSV that is written [default: point]
     #[arg(long, value_name = "MARK", value_parser = one_of(&DECIMALS))]
     decimal: Option<Decimal>,
     /// Standard error of each time [default: 1 ms, or that of the rounding if it is more]
@@ -100,11 +100,6 @@ const UNITS: [Word<Unit>; 3] = [
     (Unit::Microseconds.word(), Unit::Microseconds, "Millionths"),
 ];
 
-const DECIMALS: [Word<Decimal>; 2] = [
-    (Decimal::Point.word(), Decimal::Point, "As in 0.5"),
-    (Decimal::Comma.word(), Decimal::Comma, "As in 0,5"),
-];
-
 /// Standard error of a time of which nothing is said: that of a person with a label, as `analyze --label-error` has it.
 const USUAL_ERROR_S: f64 = 1e-3;
 
@@ -131,6 +126,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     };
     let output = match arguments.format {
         Format::Text => text::to_text(&report, detail),
+        Format::Csv if arguments.decimal == Some(Decimal::Comma) => {
+            csv::with_decimal_commas(&csv::to_csv(&report))
+        }
         Format::Csv => csv::to_csv(&report),
         Format::Json => json::to_json(&report).map_err(io::Error::from)?,
     };

@@ -3,9 +3,12 @@
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use super::quantity::{acceleration, contact_time, diameter, height, length_error, mass};
+use super::quantity::{
+    acceleration, contact_time, diameter, height, length_error, mass, share_of_clock,
+};
 use crate::analysis::Settings;
 use crate::fit::model_selection::Choice;
+use crate::report::times::Decimal;
 
 /// Known properties of the ball and of the place, and the model that is fitted.
 #[derive(Debug, Clone, Args)]
@@ -25,6 +28,17 @@ pub(super) struct Known {
     /// Time in contact at each impact, if known: 1ms
     #[arg(long, value_parser = contact_time, allow_hyphen_values = true)]
     contact_time: Option<f64>,
+    /// Time that the recording takes over the time that passed: 8 for sound that was slowed down eight times
+    #[arg(
+        long,
+        value_name = "FACTOR",
+        default_value = "1",
+        allow_hyphen_values = true
+    )]
+    time_scale: f64,
+    /// Relative standard error of the clock of the device: 0.1%, 0.001
+    #[arg(long, value_name = "SHARE", value_parser = share_of_clock, default_value = "0", allow_hyphen_values = true)]
+    clock_error: f64,
     /// Model of the intervals: constant e, and what is added to it
     #[arg(long, default_value = "auto", value_parser = one_of(&MODELS))]
     model: Choice,
@@ -44,6 +58,8 @@ impl Known {
             .diameter_m(self.diameter)
             .contact_time_s(self.contact_time)
             .model(self.model)
+            .time_scale(self.time_scale)
+            .clock_std(self.clock_error)
     }
 }
 
@@ -94,3 +110,9 @@ pub(super) fn one_of<T: Copy + Send + Sync + 'static>(
             .ok_or("not one of the words")
     })
 }
+
+/// Decimal marks.
+pub(super) const DECIMALS: [Word<Decimal>; 2] = [
+    (Decimal::Point.word(), Decimal::Point, "As in 0.5"),
+    (Decimal::Comma.word(), Decimal::Comma, "As in 0,5"),
+];

@@ -19,13 +19,17 @@ pub(super) type Given<'a> = (&'a Path, Vec<Vec<Marked>>);
 #[command(next_help_heading = "Labels")]
 pub(super) struct LabelArguments {
     /// Write the impacts, or of no drop those that come nearest to one, as labels, by the ending for Audacity (txt), Sonic Visualiser (csv) or Praat
-    #[arg(long, value_name = "OUT.txt|csv|TextGrid")]
+    #[arg(
+        long,
+        value_name = "OUT.txt|csv|TextGrid",
+        conflicts_with = "time_scale"
+    )]
     labels: Option<PathBuf>,
     /// Replace labels that are there and differ
     #[arg(long, requires = "labels")]
     force: bool,
     /// Fit exactly the impacts of a label file, as written by --labels and then edited, or set by hand
-    #[arg(long, value_name = "LABELS", conflicts_with_all = ["start", "end", "timing"])]
+    #[arg(long, value_name = "LABELS", conflicts_with_all = ["start", "end", "timing", "time_scale"])]
     impacts: Option<PathBuf>,
     /// Standard error of the time of a label that was moved or set by hand
     #[arg(long, value_parser = time, default_value = "1ms", requires = "impacts", allow_hyphen_values = true)]

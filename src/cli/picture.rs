@@ -125,7 +125,8 @@ fn hear(file: &Path, report: &Report) -> Result<Vec<Sound>, Error> {
         numbers().min().unwrap_or(0)..numbers().max().map_or(0, |last| last + 1);
     let end_s = sounds.iter().map(Sound::end_s).fold(0.0, f64::max);
     let mut stream = Stream::open_file(file)?;
-    let end = crate::units::samples_in(end_s, f64::from(stream.sample_rate_hz()));
+    let rate = f64::from(stream.sample_rate_hz()) * report.settings.time_scale;
+    let end = crate::units::samples_in(end_s, rate);
     let mut blocks = vec![Vec::new(); channels.len()];
     let mut first = 0;
     while first < end && stream.append(&channels, &mut blocks)? {

@@ -60,6 +60,10 @@ pub(super) fn share(text: &str) -> Result<f64, Error> {
     Quantity::Share.parse("restitution", text)
 }
 
+pub(super) fn share_of_clock(text: &str) -> Result<f64, Error> {
+    Quantity::Share.parse("clock error", text)
+}
+
 const fn hardly(most: f64, meant: &'static str, si: &'static str) -> Hardly {
     Hardly { most, meant, si }
 }

@@ -9,6 +9,37 @@ pub const HEADER: &str = "file,drop,impact,time_s,time_std_s,level_db,interval_s
                           rebound_speed_m_per_s,rebound_speed_std_m_per_s,\
                           restitution,restitution_std,energy_kept,energy_kept_std";
 
+/// A table as spreadsheets read it where the decimal mark is a comma: semicolons between fields, commas in numbers.
+#[must_use]
+pub fn with_decimal_commas(table: &str) -> String {
+    let (mut out, mut field, mut quoted) =
+        (String::with_capacity(table.len()), String::new(), false);
+    for c in table.chars() {
+        match c {
+            '"' => {
+                quoted = !quoted;
+                field.push(c);
+            }
+            ',' | '\n' if !quoted => {
+                out += &with_comma(&field);
+                out.push(if c == ',' { ';' } else { '\n' });
+                field.clear();
+            }
+            _ => field.push(c),
+        }
+    }
+    out + &with_comma(&field)
+}
+
+fn with_comma(field: &str) -> String {
+    let is_number = field.parse::<f64>().is_ok();
+    match field {
+        number if is_number => number.replace('.', ","),
+        text if text.contains(';') && !text.starts_with('"') => format!("\"{text}\""),
+        text => text.to_owned(),
+    }
+}
+
 /// One row per impact with its drop's number, under [`HEADER`]; values that do not exist are empty.
 #[must_use]
 pub fn to_csv(report: &Report) -> String {
@@ -68,5 +99,20 @@ mod tests {
     fn a_field_with_commas_and_quotes_stays_one_field() {
         assert_eq!(quoted("a.wav"), "a.wav");
         assert_eq!(quoted("5\", soft.wav"), "\"5\"\", soft.wav\"");
+    }
+}
+
+#[cfg(test)]
+mod comma_tests {
+    use super::with_decimal_commas;
+
+    #[test]
+    fn numbers_have_commas_and_fields_stay_apart() {
+        let table =
+            "file,e,note\n\"a, b.wav\",0.93,\n\"say \"\"1,5\"\"\",-1.5e-3,x;y\nc.1.wav,7,2.5\n";
+        let expected =
+            "file;e;note\n\"a, b.wav\";0,93;\n\"say \"\"1,5\"\"\";-1,5e-3;\"x;y\"\nc.1.wav;7;2,5\n";
+        assert_eq!(with_decimal_commas(table), expected);
+        assert_eq!(with_decimal_commas(""), "");
     }
 }

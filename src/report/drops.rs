@@ -43,6 +43,13 @@ pub const COLUMNS: [&str; 45] = [
     "natural_frequency_rad_per_s",
     "damping_ratio",
     "warnings",
+    "height_m",
+    "mass_kg",
+    "diameter_m",
+    "channel",
+    "sample_rate_hz",
+    "duration_s",
+    // Columns that came later stand behind, so that those before keep their places.
     "rebound_height_m",
     "rebound_height_std_m",
     "resilience",
@@ -50,12 +57,6 @@ pub const COLUMNS: [&str; 45] = [
     "rule_outcome",
     "rule_rebound_m",
     "rule_rebound_std_m",
-    "height_m",
-    "mass_kg",
-    "diameter_m",
-    "channel",
-    "sample_rate_hz",
-    "duration_s",
 ];
 
 words! {
@@ -82,7 +83,8 @@ impl RowStatus {
 
 /// Columns before those of the drop, and behind them.
 const HEAD: usize = 5;
-const TAIL: usize = 6;
+const TAIL: usize = 13;
+const REBOUND: usize = 7;
 
 /// The line of names above the rows.
 #[must_use]
@@ -108,7 +110,8 @@ pub fn rows(report: &Report) -> String {
     if drops.is_empty() {
         let reason = report.why_none();
         let head = head(&report.file, "", 0, RowStatus::None, reason);
-        return joined(&[&head[..], &empty(), &tail(info.channel)]);
+        let nothing = [const { String::new() }; REBOUND];
+        return joined(&[&head[..], &empty(), &tail(info.channel), &nothing]);
     }
     let row = |(i, drop): (usize, &Drop)| {
         let number = (i + 1).to_string();
@@ -118,8 +121,8 @@ pub fn rows(report: &Report) -> String {
         joined(&[
             &head[..],
             &measured,
-            &rebound(drop, judged),
             &tail(drop.channel),
+            &rebound(drop, judged),
         ])
     };
     drops.iter().enumerate().map(row).collect()

@@ -18,6 +18,7 @@ mod model;
 mod numbers;
 mod rebound;
 mod rejected;
+mod release;
 pub mod rule;
 mod settings;
 pub mod text;
@@ -35,6 +36,7 @@ pub use model::{Given, Model, Parameters};
 pub(crate) use numbers::{counted, decimals, listed, short, with_error};
 pub use rebound::Rebound;
 pub use rejected::{RejectReason, Rejected};
+pub use release::Release;
 pub use settings::Settings;
 pub(crate) use text::model_name;
 pub use warning::{Warning, WarningCode};
@@ -191,6 +193,9 @@ pub struct Drop {
     /// The rebound after the first impact; null without a height, or where the first flight does not fit it.
     #[serde(default)]
     pub first_rebound: Option<Rebound>,
+    /// The release by the first flights; null where they do not tell.
+    #[serde(default)]
+    pub release: Option<Release>,
     /// How much times and bounces scatter.
     pub scatter: Scatter,
     /// Which model the answer rests on.
@@ -229,6 +234,7 @@ impl Drop {
                 first_rebound: None,
             },
             first_rebound: None,
+            release: None,
             scatter: Scatter {
                 timing_std_s: None,
                 bounce_std: None,

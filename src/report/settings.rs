@@ -56,6 +56,12 @@ pub struct Settings {
     pub end_s: Option<f64>,
     /// How impacts are timed. Default: correlation.
     pub timing: Timing,
+    /// Time that a recording takes over the time that passed: 8 for sound slowed down eight times. Default 1. All times of a
+    /// report are those that passed; where listening starts and ends is time of the recording.
+    pub time_scale: f64,
+    /// Relative standard error of the clock that the times are by. Default 0: that of a sound card, below 0.0001, counts for
+    /// nothing.
+    pub clock_std: f64,
 }
 
 impl Default for Settings {
@@ -71,6 +77,8 @@ impl Default for Settings {
             start_s: None,
             end_s: None,
             timing: Timing::default(),
+            time_scale: 1.0,
+            clock_std: 0.0,
         }
     }
 }
@@ -146,6 +154,20 @@ impl Settings {
         self
     }
 
+    /// The same with another [`time_scale`](Self#structfield.time_scale).
+    #[must_use]
+    pub const fn time_scale(mut self, time_scale: f64) -> Self {
+        self.time_scale = time_scale;
+        self
+    }
+
+    /// The same with another [`clock_std`](Self#structfield.clock_std).
+    #[must_use]
+    pub const fn clock_std(mut self, clock_std: f64) -> Self {
+        self.clock_std = clock_std;
+        self
+    }
+
     /// Whether the settings mean something, whatever the recording. Ranges reach far beyond any ball, and stay where no
     /// product of settings leaves those of the physics.
     ///
@@ -165,6 +187,18 @@ impl Settings {
         within("diameter", self.diameter_m, 1e-6..=1e3, "1 µm to 1 km")?;
         let contact_time = self.contact_time_s;
         within("contact time", contact_time, 1e-9..=1.0, "1 ns to 1 s")?;
+        within(
+            "time scale",
+            Some(self.time_scale),
+            1e-3..=1e3,
+            "0.001 to 1000",
+        )?;
+        within(
+            "clock error",
+            Some(self.clock_std),
+            0.0..=0.1,
+            "0 to 0.1, or 0 to 10 %",
+        )?;
         within("start", self.start_s, 0.0..=f64::MAX, "0 s or more")?;
         within("end", self.end_s, 0.0..=f64::MAX, "0 s or more")?;
         match (self.start_s, self.end_s) {

@@ -8,7 +8,7 @@ mod decide;
 mod lot;
 mod verdict;
 
-pub use catalogue::{Mean, RULES, Rule, rule};
+pub use catalogue::{RULES, Rule, rule};
 pub use lot::judge_lot;
 
 use crate::Error;

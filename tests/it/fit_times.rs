@@ -204,3 +204,84 @@ fn a_rule_has_the_exit_status_of_its_verdict() {
         );
     }
 }
+
+#[test]
+fn a_clock_that_runs_at_another_rate_is_scaled_and_one_of_unknown_rate_is_in_the_error() {
+    let folder = empty_folder("fit_times", "clock");
+    let slow = listed(&folder, "slow.txt", "6.56\n5.28\n4.24\n3.36\n");
+    let fast = listed(&folder, "fast.txt", "0.82\n0.66\n0.53\n0.42\n");
+    let fit = |path: &str, more: &[&str]| {
+        let document =
+            json(&[&["fit", path, "--height", "1m", "--as", "intervals"], more].concat());
+        document["drops"][0].clone()
+    };
+    let scaled = fit(&slow, &["--time-scale", "8", "--time-error", "8ms"]);
+    let plain = fit(&fast, &["--time-error", "1ms"]);
+    let near = |a: &Value, b: &Value| (a.as_f64().unwrap() - b.as_f64().unwrap()).abs() < 1e-9;
+    for field in ["value", "std_error"] {
+        assert!(
+            near(&scaled["restitution"][field], &plain["restitution"][field]),
+            "{field}"
+        );
+    }
+    let std = |drop: &Value| {
+        drop["first_rebound"]["resilience"]["std_error"]
+            .as_f64()
+            .unwrap()
+    };
+    let doubted = fit(&fast, &["--time-error", "1ms", "--clock-error", "1%"]);
+    let share = plain["first_rebound"]["resilience"]["value"]
+        .as_f64()
+        .unwrap();
+    assert!((std(&doubted) / std(&plain).hypot(0.02 * share) - 1.0).abs() < 1e-3);
+    let too_long = fit(&slow, &[]);
+    let warnings = too_long["warnings"].to_string();
+    assert!(
+        warnings.contains("the clock runs wrong, as that of a slowed recording does"),
+        "{warnings}"
+    );
+}
+
+#[test]
+fn a_recording_in_slow_motion_gives_what_it_gave_at_its_own_speed() {
+    let folder = empty_folder("fit_times", "slow");
+    let scene = "name = 'slow'\nsample_rate_hz = 32000\nduration_s = 4.0\nnoise.white_db = -60.0\n[[drops]]\n\
+                 height_m = 0.5\nmass_kg = 0.03\ndiameter_m = 0.02\nfirst_impact_s = 0.5\n\
+                 bounce.constant = { restitution = 0.8, contact_time_s = 5e-4 }\n\
+                 modes = [{ frequency_hz = 2000.0, decay_s = 4e-3, level = 1.0 }]\n";
+    let wav = crate::common::synthesized(&folder, "own", scene);
+    let mut bytes = fs::read(&wav).unwrap();
+    // The same samples at an eighth of the rate: samples and bytes a second, in the format chunk.
+    for place in [24, 28] {
+        let rate = u32::from_le_bytes(bytes[place..place + 4].try_into().unwrap());
+        bytes[place..place + 4].copy_from_slice(&(rate / 8).to_le_bytes());
+    }
+    let slow = folder.join("slow.wav").display().to_string();
+    fs::write(&slow, bytes).unwrap();
+    let own = json(&["analyze", &wav, "--height", "50cm", "--start", "0.1"]);
+    let scaled = json(&[
+        "analyze",
+        &slow,
+        "--height",
+        "50cm",
+        "--start",
+        "0.8",
+        "--time-scale",
+        "8",
+    ]);
+    assert_eq!(own["drops"], scaled["drops"]);
+    assert_eq!(
+        own["recording"]["duration_s"],
+        scaled["recording"]["duration_s"]
+    );
+    let picture = folder.join("slow.svg").display().to_string();
+    let drawn = run(&["analyze", &slow, "--time-scale", "8", "--plot", &picture]);
+    assert_eq!(drawn.status.code(), Some(0), "{}", text(&drawn.stderr));
+    let labelled = run(&["analyze", &slow, "--time-scale", "8", "--labels", "x.txt"]);
+    assert_eq!(
+        labelled.status.code(),
+        Some(2),
+        "{}",
+        text(&labelled.stderr)
+    );
+}

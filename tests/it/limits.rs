@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// What docs/limits.md calls it, a command just beyond it, and what is said.
-const LIMITS: [(&str, &str, &str); 24] = [
+const LIMITS: [(&str, &str, &str); 26] = [
     (
         "sample rate",
         "analyze 159.wav",
@@ -65,6 +65,16 @@ const LIMITS: [(&str, &str, &str); 24] = [
         "`--contact-time`",
         "analyze drop.wav --contact-time 1.1s",
         "contact time is 1.1, expected 1 ns to 1 s",
+    ),
+    (
+        "`--time-scale`",
+        "analyze drop.wav --time-scale 1001",
+        "time scale is 1001, expected 0.001 to 1000",
+    ),
+    (
+        "`--clock-error`",
+        "analyze drop.wav --clock-error 11%",
+        "clock error is 0.11, expected 0 to 0.1, or 0 to 10 %",
     ),
     (
         "`--label-error`",

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use serde_json::Value;
+
 use crate::common::{empty_folder, json, only_drop, run, synthesized, text};
 
 /// A tennis ball of this e from 254 cm in air, caught after two impacts, at 22.05 kHz.
@@ -148,7 +150,27 @@ fn groups_are_compared_by_folder_and_by_name() {
         by_folder.contains("warm less ") && by_folder.contains("the difference is real"),
         "{by_folder}"
     );
-    let by_name = batch(&["--group", "group", "--pattern", "{group}-{n}.wav"]);
+    let summary = folder.join("summary.json").display().to_string();
+    let by_name = batch(&[
+        "--group",
+        "group",
+        "--pattern",
+        "{group}-{n}.wav",
+        "--summary",
+        &summary,
+    ]);
+    let summary: Value = serde_json::from_str(&fs::read_to_string(&summary).unwrap()).unwrap();
+    let difference = &summary["groups"]["differences"][0];
+    assert_eq!(
+        (&difference["second"], &difference["real"]),
+        (&"warm".into(), &true.into())
+    );
+    assert!((difference["second_less_first"]["value"].as_f64().unwrap() - 0.045).abs() < 0.005);
+    assert_eq!(
+        (&summary["drops"], &summary["resilience"]["count"]),
+        (&6.into(), &6.into())
+    );
+    assert!(summary["rule"].is_null());
     assert!(by_name.contains("warm less cold: 0.04"), "{by_name}");
     fs::remove_file(warm.join("warm-0.wav")).unwrap();
     fs::remove_file(warm.join("warm-1.wav")).unwrap();
@@ -244,4 +266,40 @@ fn a_curve_over_all_drops_is_told_drawn_and_written() {
         "{}",
         text(&few.stderr)
     );
+}
+
+#[test]
+fn rows_with_decimal_commas_have_semicolons_between_them() {
+    let wav = format!("{}/examples/drop.wav", env!("CARGO_MANIFEST_DIR"));
+    let rows = |more: &[&str]| {
+        let said = run(&[&["batch", wav.as_str(), "--format", "csv"], more].concat());
+        assert_eq!(said.status.code(), Some(0), "{}", text(&said.stderr));
+        text(&said.stdout)
+    };
+    let (points, commas) = (rows(&[]), rows(&["--decimal", "comma"]));
+    let cells = |table: &str, mark: char| -> Vec<String> {
+        let all = table.lines().flat_map(|line| line.split(mark));
+        all.map(|cell| cell.replace(',', ".")).collect()
+    };
+    assert_eq!(cells(&points, ','), cells(&commas, ';'));
+    assert!(
+        commas.contains(";0,9") && !commas.contains(";0."),
+        "{commas}"
+    );
+    let impacts = run(&["analyze", &wav, "--format", "csv", "--decimal", "comma"]);
+    assert!(
+        text(&impacts.stdout).contains(";1;1;0,7002"),
+        "{}",
+        text(&impacts.stdout)
+    );
+    let resumed = run(&[
+        "batch",
+        &wav,
+        "--decimal",
+        "comma",
+        "-o",
+        "x.csv",
+        "--resume",
+    ]);
+    assert_eq!(resumed.status.code(), Some(2));
 }

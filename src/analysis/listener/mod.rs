@@ -90,10 +90,11 @@ impl Listener {
     /// As for [`new`](Self::new).
     pub(crate) fn to_channels(
         indices: Range<usize>,
-        sample_rate_hz: f64,
+        recorded_rate_hz: f64,
         settings: &Settings,
     ) -> Result<Self, Error> {
         settings.check()?;
+        let sample_rate_hz = recorded_rate_hz * settings.time_scale;
         let channels = indices.len();
         if channels == 0 {
             return Err(Error::argument("channels", 0.0, "at least one"));
@@ -105,7 +106,7 @@ impl Listener {
             return Err(Error::argument(all, together, expected));
         }
         let detector = Detector::new(sample_rate_hz)?;
-        let frame = |time_s: f64| frame_at(time_s, sample_rate_hz);
+        let frame = |time_s: f64| frame_at(time_s, recorded_rate_hz);
         let first = settings.start_s.map_or(0, frame);
         let budget = HELD_BYTES / size_of::<f32>() / channels;
         Ok(Self {

@@ -22,17 +22,19 @@ use std::thread;
 use clap::{Args, value_parser};
 
 use super::document::{DocumentArguments, pictures, section};
+use super::known::{DECIMALS, one_of};
 use super::listen::{Listening, name};
 use super::output::{followed, place};
 use super::picture::Target as Picture;
 use super::rule::RuleArguments;
-use super::{Outcome, terminal};
+use super::{Outcome, output, terminal};
 use crate::Error;
 use crate::picture::batch::sheet;
 use crate::plot::Figure;
 use crate::report::batch::{Digest, Found, answer, conclusion, summary};
 use crate::report::curve::Bounces;
 use crate::report::html::Content;
+use crate::report::times::Decimal;
 use curve::CurveArguments;
 use format::{Format, ReadBack};
 use inputs::Input;
@@ -78,6 +80,9 @@ pub(super) struct Arguments {
     /// Form of the rows [default: csv; on a terminal without -o a table]
     #[arg(long, value_enum)]
     format: Option<Format>,
+    /// What stands before the decimals in CSV; with commas semicolons separate fields, as spreadsheets of such countries read
+    #[arg(long, value_name = "MARK", default_value = "point", value_parser = one_of(&DECIMALS), conflicts_with = "resume")]
+    decimal: Decimal,
     /// The file to write; until it is whole, rows are in OUT.partial
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
@@ -97,6 +102,9 @@ pub(super) struct Arguments {
     /// Compare groups of drops: those of each folder, or of each {group} of --pattern or of the column group of --options
     #[arg(long, value_enum, value_name = "BY")]
     group: Option<GroupBy>,
+    /// Write what all drops say together as JSON: mean, spread, the verdict of a rule, groups
+    #[arg(long, value_name = "OUT.json")]
+    summary: Option<PathBuf>,
     /// Draw e of each drop with its interval, and a histogram
     #[arg(long, value_name = "OUT.svg|png")]
     plot: Option<PathBuf>,
@@ -175,6 +183,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let together = Together::of(&job, arguments.group, &digests);
     say(&together.said);
     let curve = arguments.curve.told(bounces)?;
+    if let Some(path) = &arguments.summary {
+        let document = together.json(&digests).to_string() + "\n";
+        output::write(path, b"{", document.as_bytes())?;
+    }
     if let Some(plot) = plot {
         plot.draw(&sheet(&plots::rows(&digests)))?;
     }
@@ -240,6 +252,7 @@ fn check_apart(arguments: &Arguments, job: &Job<'_>) -> Result<(), Error> {
         .chain(arguments.plot.clone())
         .chain(arguments.curve.path().cloned())
         .chain(arguments.document.report.clone())
+        .chain(arguments.summary.clone())
         .chain(sheets)
     {
         if !places.insert(place(&path)) {
@@ -282,7 +295,10 @@ fn print(text: &str) -> Result<ControlFlow<()>, Error> {
 
 impl Arguments {
     fn format(&self) -> Format {
-        self.format.unwrap_or(Format::Csv)
+        match self.format.unwrap_or(Format::Csv) {
+            Format::Csv if self.decimal == Decimal::Comma => Format::CsvComma,
+            format => format,
+        }
     }
 }
 

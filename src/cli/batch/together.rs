@@ -3,11 +3,14 @@
 use std::path::Path;
 
 use clap::ValueEnum;
+use serde_json::Value;
 
 use super::job::Job;
 use crate::cli::listen::name;
 use crate::cli::rule::status;
-use crate::report::batch::{Digest, DropDigest, Found, compared, verdict};
+use crate::fit::groups::Groups;
+use crate::report::batch::{Digest, DropDigest, Found, compared, summary_json, told, verdict};
+use crate::report::rule::LotJudged;
 use crate::rules::{Rule, judge_lot};
 
 /// What makes a group.
@@ -24,6 +27,8 @@ pub(super) enum GroupBy {
 pub(super) struct Together {
     pub said: String,
     pub status: u8,
+    lot: Option<LotJudged>,
+    groups: Option<(Vec<String>, Groups)>,
 }
 
 /// A drop with the path of its file.
@@ -37,9 +42,18 @@ impl Together {
             together.judge(job, rule, &drops);
         }
         if let Some(by) = group {
-            together.said += &("\n".to_owned() + &groups(job, by, &drops));
+            together.compare(job, by, &drops);
         }
         together
+    }
+
+    /// The summary as JSON.
+    pub(super) fn json(&self, digests: &[Digest]) -> Value {
+        let groups = self
+            .groups
+            .as_ref()
+            .map(|(names, groups)| (names.as_slice(), groups));
+        summary_json(digests, self.lot.as_ref(), groups)
     }
 
     /// Each ball is that of the table or the name, else a file.
@@ -55,6 +69,23 @@ impl Together {
         let lot = judge_lot(rule, &drops.iter().map(of).collect::<Vec<_>>());
         self.said = "\n".to_owned() + &verdict(&lot);
         self.status = status(lot.outcome);
+        self.lot = Some(lot);
+    }
+
+    fn compare(&mut self, job: &Job<'_>, by: GroupBy, drops: &[OfFile<'_>]) {
+        let Grouped {
+            names,
+            members,
+            without,
+        } = groups(job, by, drops);
+        let groups = compared(&names, &members);
+        self.said += &("\n".to_owned() + &told(&names, &groups));
+        self.said += &match without {
+            0 => String::new(),
+            1 => "1 drop is of no group and left out\n".to_owned(),
+            several => format!("{several} drops are of no group and left out\n"),
+        };
+        self.groups = groups.ok().map(|groups| (names, groups));
     }
 }
 
@@ -71,29 +102,33 @@ fn drops<'a>(job: &'a Job<'_>, digests: &'a [Digest]) -> Vec<OfFile<'a>> {
     drops
 }
 
-/// The groups in the order in which they first appear.
-fn groups(job: &Job<'_>, by: GroupBy, drops: &[OfFile<'_>]) -> String {
+/// Drops by their group.
+#[derive(Debug, Default)]
+struct Grouped {
+    /// In the order in which they first appear.
+    names: Vec<String>,
+    members: Vec<(usize, DropDigest)>,
+    /// Drops of no group.
+    without: usize,
+}
+
+fn groups(job: &Job<'_>, by: GroupBy, drops: &[OfFile<'_>]) -> Grouped {
     let of = |path: &Path| match by {
         GroupBy::Folder => Some(path.parent().map_or_else(String::new, name)),
         GroupBy::Group => job.given(path).ok().and_then(|given| given.group),
     };
-    let (mut names, mut members, mut without) = (Vec::new(), Vec::new(), 0);
+    let mut grouped = Grouped::default();
     for (path, _, drop) in drops {
         let Some(group) = of(path) else {
-            without += 1;
+            grouped.without += 1;
             continue;
         };
-        let known = names.iter().position(|n| *n == group);
+        let known = grouped.names.iter().position(|n| *n == group);
         let index = known.unwrap_or_else(|| {
-            names.push(group);
-            names.len() - 1
+            grouped.names.push(group);
+            grouped.names.len() - 1
         });
-        members.push((index, *drop));
+        grouped.members.push((index, *drop));
     }
-    let left_out = match without {
-        0 => String::new(),
-        1 => "1 drop is of no group and left out\n".to_owned(),
-        several => format!("{several} drops are of no group and left out\n"),
-    };
-    compared(&names, &members) + &left_out
+    grouped
 }

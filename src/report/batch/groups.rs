@@ -6,26 +6,27 @@ use super::{DropDigest, visible};
 use crate::fit::Estimate;
 use crate::fit::groups::{Difference, Groups, Member};
 
-/// Compares groups of drops by e, at one speed; a sentence where that cannot be.
-#[must_use]
-pub fn compared(names: &[String], drops: &[(usize, DropDigest)]) -> String {
+/// Compares groups of drops by e, at one speed.
+///
+/// # Errors
+/// A sentence where that cannot be.
+pub fn compared(names: &[String], drops: &[(usize, DropDigest)]) -> Result<Groups, String> {
     let members: Vec<Member> = drops
         .iter()
         .filter_map(|(g, drop)| member(*g, drop))
         .collect();
     let held = |g: usize| members.iter().filter(|m| m.group == g).count();
     if names.len() < 2 {
-        return "Groups: there is one only, and nothing to compare it with\n".to_owned();
+        return Err("Groups: there is one only, and nothing to compare it with".to_owned());
     }
     if let Some(few) = (0..names.len()).find(|g| held(*g) < 2) {
-        let said = format!(
+        return Err(format!(
             "Groups: {} has {} with an e and its error. What drops of a group differ by takes two at least, better five",
             visible(&names[few]),
             super::counted(held(few), "drop")
-        );
-        return wrapped(&said, 2) + "\n";
+        ));
     }
-    Groups::of(&members, names.len()).map_or_else(String::new, |groups| told(names, &groups))
+    Groups::of(&members, names.len()).ok_or_else(|| "Groups: they cannot be compared".to_owned())
 }
 
 /// A drop as one measurement.
@@ -39,7 +40,16 @@ pub(super) fn member(group: usize, drop: &DropDigest) -> Option<Member> {
     })
 }
 
-fn told(names: &[String], groups: &Groups) -> String {
+/// What a comparison says; a sentence where there is none.
+#[must_use]
+pub fn told(names: &[String], groups: &Result<Groups, String>) -> String {
+    match groups {
+        Ok(groups) => in_words(names, groups),
+        Err(why) => wrapped(why, 2) + "\n",
+    }
+}
+
+fn in_words(names: &[String], groups: &Groups) -> String {
     let names: Vec<String> = names.iter().map(|name| visible(name)).collect();
     let at = groups.at_speed_m_per_s.map_or_else(String::new, |v| {
         let how = match &groups.slope {
@@ -139,6 +149,10 @@ mod tests {
         of.iter().map(drop).collect()
     }
 
+    fn said_of(names: &[String], drops: &[(usize, DropDigest)]) -> String {
+        told(names, &compared(names, drops))
+    }
+
     fn names(of: &[&str]) -> Vec<String> {
         of.iter().map(ToString::to_string).collect()
     }
@@ -153,7 +167,7 @@ mod tests {
             (1, 0.86),
             (1, 0.855),
         ];
-        let said = compared(&names(&["cold", "warm\n"]), &drops(&of));
+        let said = said_of(&names(&["cold", "warm\n"]), &drops(&of));
         assert!(said.contains("  cold: 0.8050 ± 0.0029 (95 %: "), "{said}");
         assert!(
             said.contains("warm\\n less cold: 0.0500 ± 0.0041 (95 %: "),
@@ -169,7 +183,7 @@ mod tests {
             "{said}"
         );
         let alike = [(0, 0.80), (0, 0.81), (1, 0.801), (1, 0.811)];
-        let said = compared(&names(&["a", "b"]), &drops(&alike));
+        let said = said_of(&names(&["a", "b"]), &drops(&alike));
         assert!(said.contains("may be chance"), "{said}");
     }
 
@@ -183,7 +197,7 @@ mod tests {
             (2, 0.80),
             (2, 0.81),
         ];
-        let said = compared(&names(&["a", "b", "c"]), &drops(&of)).replace("\n          ", "");
+        let said = said_of(&names(&["a", "b", "c"]), &drops(&of)).replace("\n          ", "");
         assert_eq!(
             said.matches("corrected for 3 differences by Holm").count(),
             3,
@@ -193,13 +207,13 @@ mod tests {
 
     #[test]
     fn a_group_of_one_and_a_group_alone_have_a_sentence() {
-        let said = compared(
+        let said = said_of(
             &names(&["a", "b"]),
             &drops(&[(0, 0.8), (0, 0.81), (1, 0.9)]),
         );
         assert!(said.contains("b has 1 drop with an e"), "{said}");
         assert!(
-            compared(&names(&["a"]), &drops(&[(0, 0.8), (0, 0.81)])).contains("there is one only")
+            said_of(&names(&["a"]), &drops(&[(0, 0.8), (0, 0.81)])).contains("there is one only")
         );
     }
 }

@@ -1,10 +1,12 @@
 //! Many recordings in short: a line for each, and the mean of their drops.
 
 mod groups;
+mod json;
 mod rebound;
 mod rule;
 
-pub use groups::compared;
+pub use groups::{compared, told};
+pub use json::summary_json;
 pub use rule::verdict;
 
 use super::numbers::{counted, digits_for, plus_minus};

@@ -4,7 +4,7 @@ use super::models::{model, rivals};
 use super::{entry, line};
 use crate::fit::model::Budget;
 use crate::report::numbers::{digits_for, with_error};
-use crate::report::{Ball, Drop, Estimates};
+use crate::report::{Ball, Drop, Estimates, release};
 
 /// What the answer rests on, in the letters of the physics.
 pub(super) fn basis(out: &mut String, drop: &Drop) {
@@ -22,6 +22,9 @@ pub(super) fn basis(out: &mut String, drop: &Drop) {
             &format!("  T_total  {total:.4} s from release to rest ({observed})"),
         ),
         None => line(out, &format!("  time     {observed}")),
+    }
+    if let Some(release) = &drop.release {
+        entry(out, &format!("  release  {}", release::in_words(release)));
     }
     if let Some(ball) = &drop.ball {
         entry(out, &format!("  ball     {}", ball_line(ball)));

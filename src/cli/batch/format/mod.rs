@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use crate::Error;
 use crate::fit::Estimate;
 use crate::report::batch::{Digest, DropDigest, Found, JudgedDigest};
+use crate::report::csv::with_decimal_commas;
 use crate::report::drops::{self, COLUMNS, RowStatus};
 use crate::report::rule::Outcome;
 use crate::report::{Report, json};
@@ -19,6 +20,9 @@ pub(super) enum Format {
     Csv,
     /// One document of analyze --format json per line
     Ndjson,
+    /// One row per drop, with semicolons between fields and commas in numbers: by --decimal comma
+    #[value(skip)]
+    CsvComma,
 }
 
 /// Whole files found in what an interrupted batch left.
@@ -46,6 +50,7 @@ impl Format {
     pub(super) fn header(self) -> String {
         match self {
             Self::Csv => drops::header(),
+            Self::CsvComma => with_decimal_commas(&drops::header()),
             Self::Ndjson => String::new(),
         }
     }
@@ -53,6 +58,7 @@ impl Format {
     pub(super) fn rows(self, report: &Report) -> Result<String, Error> {
         match self {
             Self::Csv => Ok(drops::rows(report)),
+            Self::CsvComma => Ok(with_decimal_commas(&drops::rows(report))),
             Self::Ndjson => Ok(json::to_line(report).map_err(std::io::Error::from)?),
         }
     }
@@ -60,6 +66,7 @@ impl Format {
     pub(super) fn failure(self, file: &str, reason: &str) -> String {
         match self {
             Self::Csv => drops::failure(file, reason),
+            Self::CsvComma => with_decimal_commas(&drops::failure(file, reason)),
             Self::Ndjson => json!({"file": file, "error": reason}).to_string() + "\n",
         }
     }
@@ -68,6 +75,8 @@ impl Format {
     pub(super) fn read_back(self, source: impl Read) -> Result<Option<ReadBack>, Error> {
         match self {
             Self::Csv => table(source),
+            // Not to be gone on with.
+            Self::CsvComma => Ok(None),
             Self::Ndjson => lines(source),
         }
     }
