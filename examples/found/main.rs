@@ -8,6 +8,7 @@
 //! cargo run --release --example found -- begin            first impacts that are hard to find
 //! cargo run --release --example found -- few              one to five impacts, then caught
 //! cargo run --release --example found -- rebound          two impacts from a known height
+//! cargo run --release --example found -- curve            e against speed over many drops
 //! cargo run --release --example found -- knocks           what knocks before a drop cost it
 //! cargo run --release --example found -- copies DIR       recordings put several times into one
 //! cargo run --release --example found -- nothing [DIR]    clips without a ball, and recordings without one
@@ -28,6 +29,7 @@ mod begin;
 mod bounces;
 mod company;
 mod copies;
+mod curve;
 mod few;
 mod nothing;
 mod parallel;
@@ -49,12 +51,13 @@ fn main() {
         ["begin"] => begin::table(),
         ["few"] => few::table(),
         ["rebound"] => rebound::table(),
+        ["curve"] => curve::table(),
         ["knocks"] => company::knocks(),
         ["copies", folder] => copies::table(Path::new(folder)),
         ["nothing"] => nothing::table(None),
         ["nothing", folder] => nothing::table(Some(Path::new(folder))),
         _ => eprintln!(
-            "found range | scatter | alternating | odd | begin | few | rebound | knocks | copies DIR | nothing [DIR]"
+            "found range | scatter | alternating | odd | begin | few | rebound | curve | knocks | copies DIR | nothing [DIR]"
         ),
     }
 }
