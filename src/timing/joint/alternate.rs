@@ -78,7 +78,15 @@ impl<'a> Joint<'a> {
         self.rests_since(&before)
     }
 
-    /// The same with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
+    /// A round by the heads, and one by the whole template.
+    pub(super) fn sketch(&mut self) {
+        let mut heads = self.heads();
+        self.round(&mut heads);
+        self.learn_whole();
+        self.round(&mut heads);
+    }
+
+    /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
     /// that match nearly as well.
     pub(super) fn search_and_settle(&mut self) -> Vec<f64> {
         let mut ambiguities = vec![0.0; self.places.len()];
