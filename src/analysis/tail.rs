@@ -43,7 +43,9 @@ pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
 fn longer(stretch: &Stretch<'_>, chain: &Chain, sound: &Whitened<'_>) -> Option<Chain> {
     let region_s = region(chain, stretch.sound.end_s())?;
     let Sketch { impacts, template } = stretch.sketch(chain, sound)?;
-    let flights = impacts.windows(2).map(|w| w[1].time_s - w[0].time_s);
+    let heard = impacts.iter().filter(|i| i.is_heard());
+    let heard_s: Vec<f64> = heard.map(|i| i.time_s).collect();
+    let flights = heard_s.windows(2).map(|w| w[1] - w[0]);
     let shortest_s = flights.fold(f64::INFINITY, f64::min);
     let late = matched::events(sound, &template, shortest_s, region_s)?;
     joined(chain, &sequence::follow_again(&late, &known(&impacts))?)

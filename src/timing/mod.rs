@@ -36,10 +36,10 @@ words! {
 const BEFORE_S: f64 = 3e-3;
 const AFTER_S: f64 = 5e-3;
 
-/// The heard impacts of a drop about where they are, and the sound that they have in common.
+/// The impacts of a drop about where they are, and the sound that they have in common.
 #[derive(Debug, Clone)]
 pub struct Sketch {
-    /// The impacts, to a fraction of a millisecond.
+    /// The impacts, those heard to a fraction of a millisecond.
     pub impacts: Vec<Impact>,
     /// Their template.
     pub template: Template,
@@ -48,13 +48,26 @@ pub struct Sketch {
 /// What more impacts of a drop can be found by: `impacts` are as [`refine`] takes them. None where fewer than three are heard.
 #[must_use]
 pub fn sketch(sound: &Whitened<'_>, impacts: &[Impact]) -> Option<Sketch> {
-    let (impacts, template) = joint::sketch(sound, &heard(impacts))?;
-    Some(Sketch { impacts, template })
+    let (timed, template) = joint::sketch(sound, &heard(impacts))?;
+    Some(Sketch {
+        impacts: with_inferred(impacts, timed),
+        template,
+    })
 }
 
 fn heard(impacts: &[Impact]) -> Vec<Impact> {
     let heard = impacts.iter().copied().filter(Impact::is_heard);
     heard.collect()
+}
+
+/// All impacts, those heard as they are timed.
+fn with_inferred(impacts: &[Impact], timed: Vec<Impact>) -> Vec<Impact> {
+    let mut timed = timed.into_iter();
+    let impacts = impacts.iter().map(|&impact| {
+        let timed = impact.is_heard().then(|| timed.next());
+        timed.flatten().unwrap_or(impact)
+    });
+    impacts.collect()
 }
 
 /// Times the heard impacts of one drop in its whitened sound: `impacts` are in ascending order, each with how far off its
@@ -84,12 +97,7 @@ pub fn refine(sound: &Whitened<'_>, impacts: &[Impact], timing: Timing) -> Vec<I
             timed.collect()
         }
     };
-    let mut timed = timed.into_iter();
-    let impacts = impacts.iter().map(|&impact| {
-        let timed = impact.is_heard().then(|| timed.next());
-        timed.flatten().unwrap_or(impact)
-    });
-    impacts.collect()
+    with_inferred(impacts, timed)
 }
 
 /// The time of one impact by its own rise.

@@ -80,10 +80,9 @@ impl<'a> Joint<'a> {
 
     /// A round by the heads, and one by the whole template.
     pub(super) fn sketch(&mut self) {
-        let mut heads = self.heads();
-        self.round(&mut heads);
+        self.round(&mut self.heads());
         self.learn_whole();
-        self.round(&mut heads);
+        self.round(&mut self.heads());
     }
 
     /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
