@@ -78,11 +78,15 @@ impl<'a> Joint<'a> {
         self.rests_since(&before)
     }
 
-    /// A round by the heads, and one by the whole template.
-    pub(super) fn sketch(&mut self) {
+    /// A round by the heads and one by the whole template; where impacts are alike, as many as it takes them to rest.
+    pub(super) fn sketch(&mut self, alike: bool) {
         self.round(&mut self.heads());
         self.learn_whole();
-        self.round(&mut self.heads());
+        if alike {
+            self.settle();
+        } else {
+            self.round(&mut self.heads());
+        }
     }
 
     /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
