@@ -3,7 +3,7 @@
 use bounce_audio::fit::random_effects::{Measurement, RandomEffects, outliers};
 use bounce_audio::report::batch::{Digest, summary as of_digests};
 use bounce_audio::report::{Report, drops};
-use pyo3::{PyResult, Python, pyfunction};
+use pyo3::{PyResult, Python, pyclass, pyfunction, pymethods};
 use serde_json::{Value, json};
 
 use crate::failure::{Failure, detached};
@@ -34,13 +34,31 @@ pub(crate) fn compare(py: Python<'_>, measurements: Vec<Measurement>) -> PyResul
     })
 }
 
-/// What a batch says at its end of these documents, each a line.
-#[pyfunction]
-pub(crate) fn summary(py: Python<'_>, lines: Vec<String>) -> PyResult<String> {
-    detached(py, || {
-        let digests: Result<Vec<Digest>, Failure> = lines.iter().map(|l| digest(l)).collect();
-        Ok(of_digests(&digests?))
-    })
+/// Recordings in short, of which a batch tells at its end: little is kept of each.
+#[pyclass(module = "bounce_audio._core")]
+#[derive(Debug, Default)]
+pub(crate) struct Digests {
+    digests: Vec<Digest>,
+}
+
+#[pymethods]
+impl Digests {
+    #[new]
+    fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes in documents, each a line.
+    fn add(&mut self, py: Python<'_>, lines: Vec<String>) -> PyResult<()> {
+        let digests: Vec<Digest> = detached(py, || lines.iter().map(|l| digest(l)).collect())?;
+        self.digests.extend(digests);
+        Ok(())
+    }
+
+    /// What a batch says at its end.
+    fn summary(&self, py: Python<'_>) -> PyResult<String> {
+        detached(py, || Ok(of_digests(&self.digests)))
+    }
 }
 
 /// The columns of [`drop_rows`].

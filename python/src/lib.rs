@@ -21,7 +21,7 @@ use pyo3::prelude::pymodule;
 #[pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::compared::{compare, drop_columns, drop_rows, summary};
+    use crate::compared::{Digests, compare, drop_columns, drop_rows};
     #[pymodule_export]
     use crate::failure::break_off;
     #[pymodule_export]

@@ -21,6 +21,7 @@ from .errors import (
     NoSolutionError,
     RecordingError,
 )
+from .folders import summary
 from .listening import Listener, analyze, analyze_bytes, analyze_file, fit
 from .results import IMPACT, Drop, Report
 from .settings import Settings
@@ -52,5 +53,6 @@ __all__ = [
     "presets",
     "rules",
     "solve",
+    "summary",
     "synth",
 ]

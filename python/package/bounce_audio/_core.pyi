@@ -5,6 +5,7 @@ import numpy.typing as npt
 from typing_extensions import Self
 
 __all__ = [
+    "Digests",
     "Listener",
     "Pictures",
     "VERSION",
@@ -21,7 +22,6 @@ __all__ = [
     "rules",
     "solve_contact",
     "solve_total_time",
-    "summary",
     "synth",
 ]
 
@@ -30,6 +30,12 @@ VERSION: str
 @final
 class Pictures:
     def svg(self, number: int, level_only: bool) -> str | None: ...
+
+@final
+class Digests:
+    def __new__(cls) -> Self: ...
+    def add(self, lines: list[str]) -> None: ...
+    def summary(self) -> str: ...
 
 @final
 class Listener:
@@ -80,7 +86,6 @@ def solve_total_time(
     mass_kg: float | None,
     errors: list[float | None],
 ) -> str: ...
-def summary(lines: list[str]) -> str: ...
 def synth(
     scene: str, is_text: bool, seed: int
 ) -> tuple[npt.NDArray[np.float32], str]: ...
