@@ -32,4 +32,4 @@ pytest --quiet --doctest-glob=README.md README.md
 pytest --quiet --doctest-modules --pyargs bounce_audio
 pytest --quiet tests
 mypy --strict -p bounce_audio
-python -m mypy.stubtest bounce_audio
+python -m mypy.stubtest --mypy-config-file pyproject.toml bounce_audio

@@ -1,6 +1,6 @@
 //! Times without a sound.
 
-use bounce_audio::analysis::analyze_times;
+use bounce_audio::analyze_times;
 use pyo3::{PyResult, Python, pyfunction};
 
 use crate::asked::settings;

@@ -206,7 +206,7 @@ mod tests {
             first_channel: 0,
             end_s: 20.0,
         };
-        let mut told = |findings: &mut Findings| {
+        let told = |findings: &mut Findings| {
             let drops = findings.tell(extent, &Settings::default()).unwrap();
             drops.iter().map(|d| d.evidence_nats).collect::<Vec<_>>()
         };

@@ -18,6 +18,16 @@ const FEWEST: usize = 2;
 /// There is no sound: no impact has a level, and the drop is taken to have been watched from before its first impact until
 /// it was over. Where listening starts and ends, and how impacts are timed, has no meaning here.
 ///
+/// ```
+/// use bounce_audio::{Settings, analyze_times};
+///
+/// let times_s = [1.0, 1.5, 1.9, 2.22, 2.476, 2.6808];
+/// let drop = analyze_times(&times_s.map(|time_s| (time_s, 1e-4)), &Settings::default())?;
+/// let e = drop.restitution.map(|r| r.estimate.value);
+/// assert!((e.unwrap_or(0.0) - 0.8).abs() < 0.002);
+/// # Ok::<(), bounce_audio::Error>(())
+/// ```
+///
 /// # Errors
 /// [`Error::Argument`] for fewer than two times, times that do not ascend, an error that is not above 0, or a setting out
 /// of range.

@@ -6,7 +6,6 @@ import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from . import _core
 from .errors import ArgumentError
@@ -29,8 +28,7 @@ def gather(paths: Paths) -> list[Input]:
 
     Of a folder all files count, at any depth, whose names end as those of recordings do.
     """
-    one = isinstance(paths, (str, os.PathLike))
-    named: Iterable[Any] = [paths] if one else paths
+    named = [paths] if isinstance(paths, (str, os.PathLike)) else paths
     found = [i for p in named for i in _of(os.fspath(p))]
     if not found:
         raise ArgumentError(f"there are no recordings in {paths!r}")

@@ -126,8 +126,9 @@ def _active() -> Any:
 def _by_threads(todo: list[Shard], job: Job, workers: int | None) -> Iterator[str]:
     """In threads of this process, by Dask's own scheduler for them."""
     import dask
+    from dask.system import CPU_COUNT
 
-    count = workers or len(os.sched_getaffinity(0))
+    count = workers or CPU_COUNT
     # Some for each thread at a time, so that what is done can be told.
     for start in range(0, len(todo), 4 * count):
         tasks = [dask.delayed(_shards.run)(s, job) for s in todo[start : start + 4 * count]]

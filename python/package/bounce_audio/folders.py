@@ -6,11 +6,15 @@ import json
 import os
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from . import _core
 from .errors import ArgumentError
 
-__all__ = ["lines", "summary"]
+if TYPE_CHECKING:
+    import pandas as pd
+
+__all__ = ["lines", "summary", "to_dataframe"]
 
 #: Where a run says which shards are its own, in order.
 RUN = "run.json"
@@ -38,6 +42,19 @@ def lines(out: str | os.PathLike[str]) -> Iterator[str]:
     """
     for shard in _shards(Path(out)):
         yield from _lines(shard)
+
+
+def to_dataframe(out: str | os.PathLike[str]) -> pd.DataFrame:
+    """A pandas table with a row per drop in the order of the inputs: the columns of `bounce-audio batch`.
+
+    A recording without a drop, or that could not be analyzed, has one row with the reason; see the column `status`.
+
+    Raises `ArgumentError` if the run is not finished, `FileNotFoundError` if it wrote no Parquet.
+    """
+    import pandas as pd
+
+    shards = [shard.with_suffix(".parquet") for shard in _shards(Path(out))]
+    return pd.concat(map(pd.read_parquet, shards), ignore_index=True)
 
 
 def _lines(shard: Path) -> list[str]:
