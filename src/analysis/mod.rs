@@ -16,11 +16,13 @@ mod model;
 mod scene;
 mod stretch;
 mod tail;
+mod timed;
 mod warnings;
 
 pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
 pub use listener::Listener;
+pub use timed::analyze_times;
 
 use crate::Error;
 use crate::report::{Analysis, RejectReason, Rejected};

@@ -7,7 +7,7 @@
 use super::align::Aligned;
 use super::standard_error::overdispersions;
 use super::start::{Started, period};
-use super::{Place, Prior, usual_move};
+use super::{Place, Prior, UNLIKE, usual_move};
 use crate::signal::correlate::Correlator;
 use crate::signal::template::{Sample, Template};
 use crate::units::{real, samples_in};
@@ -79,10 +79,10 @@ impl<'a> Joint<'a> {
     }
 
     /// A round by the heads and one by the whole template; where impacts are alike, as many as it takes them to rest.
-    pub(super) fn sketch(&mut self, alike: bool) {
+    pub(super) fn sketch(&mut self) {
         self.round(&mut self.heads());
         self.learn_whole();
-        if alike {
+        if self.unlike_now() <= UNLIKE {
             self.settle();
         } else {
             self.round(&mut self.heads());

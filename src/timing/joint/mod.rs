@@ -125,8 +125,7 @@ pub(super) fn sketch(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
     let mut joint = Joint::of(&started, aligned, 1);
-    let alike = joint.unlike() <= UNLIKE;
-    joint.sketch(alike);
+    joint.sketch();
     let corrected = Corrected::without_walk(joint);
     let timed = timed(whitened.sound(), coarse, &started, &corrected);
     Some((timed, corrected.joint.template))
