@@ -119,9 +119,10 @@ const OUTSIDE: [&str; 12] = [
 ];
 
 /// Crates that a feature brings, and who may name them: the core is without.
-const OPTIONAL: [(&str, &[&str]); 11] = [
+const OPTIONAL: [(&str, &[&str]); 12] = [
     ("hound", &["audio"]),
     ("symphonia", &["audio"]),
+    ("ab_glyph", &["plot"]),
     ("plotters", &["plot"]),
     ("plotters_backend", &["plot"]),
     ("png", &["plot"]),
