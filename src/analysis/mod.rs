@@ -11,6 +11,7 @@ mod findings;
 mod irregular;
 mod labelled;
 mod listener;
+mod live;
 mod louder_before;
 mod model;
 mod scene;
@@ -21,6 +22,7 @@ mod warnings;
 pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
 pub use listener::Listener;
+pub use live::{Live, Told};
 
 use crate::Error;
 use crate::report::{Analysis, RejectReason, Rejected};
