@@ -2,10 +2,12 @@
 //!
 //! What the page gets are the documents of the command: the JSON of `analyze`, its CSV, labels and SVG.
 
+mod live;
 mod peaks;
 mod recorded;
 mod slices;
 
+pub use live::Live;
 pub use recorded::Recorded;
 
 use std::io::Cursor;

@@ -10,9 +10,9 @@ use std::path::Path;
 /// The script of a module and all that it imports.
 pub(crate) fn script(folder: &Path, module: &str) -> Result<String, Box<dyn Error>> {
     let mut done = Vec::new();
-    let mut out = String::from("\"use strict\";\n");
+    let mut out = String::new();
     add(folder, module, &mut done, &mut out)?;
-    Ok(out)
+    Ok(format!("(() => {{\n\"use strict\";\n{out}}})();\n"))
 }
 
 fn add(
