@@ -21,7 +21,7 @@ let settings = "{}";
 function nameProblem(recording) {
   const { problem, file } = recording;
   if (problem instanceof Trapped) {
-    recording.problem = new Error(`${file.name}: the decoder failed on this file. It may be damaged; others can be opened`);
+    recording.problem = new Error(`The decoder failed on ${file.name}, which may be damaged. Others can be opened`);
   }
 }
 

@@ -26,7 +26,7 @@ function keep(list) {
 
 function shownRow({ when, file, e, std, bounces, seconds }) {
   const [value, error] = e === null ? ["–", "–"] : valueAndError(e, std);
-  return row([new Date(when).toLocaleString(), file, value, error, String(bounces), `${fixed(seconds, 1)} s`]);
+  return row([new Date(when).toLocaleString([], { dateStyle: "short", timeStyle: "short" }), file, value, error, String(bounces), `${fixed(seconds, 1)} s`]);
 }
 
 export function showHistory() {
