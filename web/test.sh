@@ -22,4 +22,4 @@ cargo build --locked --release --manifest-path ../Cargo.toml
 built=$(cargo metadata --locked --format-version 1 --no-deps --manifest-path ../Cargo.toml |
     sed 's/.*"target_directory":"\([^"]*\)".*/\1/')
 cargo test --locked -p bounce-audio-web -p xtask
-CHROMIUM=$chromium BOUNCE_AUDIO=$built/release/bounce-audio node --test --test-concurrency=1 test/
+CHROMIUM=$chromium BOUNCE_AUDIO=$built/release/bounce-audio node --test --test-concurrency=1 test/*.test.mjs

@@ -56,13 +56,27 @@ async function measure(recording) {
   return isLast;
 }
 
-// Measures again what is shown, after an edit.
-async function follow() {
-  const recording = shown;
-  if (!(await measure(recording)) || recording !== shown) return;
-  place = Math.min(place, Math.max(0, (recording.report?.drops.length ?? 1) - 1));
-  if (!editor.dragging) editor.set(recording.marks[place] ?? []);
+// Shows what is shown once more, after it was measured again: there may be fewer drops.
+function showAgain() {
+  place = Math.min(place, Math.max(0, (shown.report?.drops.length ?? 1) - 1));
+  if (!editor.dragging && shown.answer) editor.set(shown.marks[place] ?? []);
   showAnswer();
+}
+
+let isFollowing = false;
+let isBehind = false;
+
+// Measures again what is shown, after an edit; of edits that come meanwhile only the last is measured.
+async function follow() {
+  isBehind = true;
+  if (isFollowing) return;
+  isFollowing = true;
+  while (isBehind) {
+    isBehind = false;
+    const recording = shown;
+    if ((await measure(recording)) && recording === shown) showAgain();
+  }
+  isFollowing = false;
 }
 
 function edit(marks, isStep = true) {
@@ -161,10 +175,8 @@ async function followSettings(typed) {
   settings = typed;
   for (const recording of [...recordings]) {
     if ((await measure(recording)) && recordings.includes(recording)) {
-      if (recording === shown) {
-        if (!recording.isEdited && recording.answer) editor.set(recording.marks[place] ?? []);
-        showAnswer();
-      } else showTable();
+      if (recording === shown) showAgain();
+      else showTable();
     }
   }
 }

@@ -51,7 +51,8 @@ function rowsOf(recording, shown, { show, remove }) {
 }
 
 export function showClass(recordings, shown, actions) {
-  element("class").hidden = recordings.length < 2;
+  const drops = recordings.reduce((sum, one) => sum + (one.report?.drops.length ?? 0), 0);
+  element("class").hidden = recordings.length < 2 && drops < 2;
   element("class-mean").textContent = sentenceOfMean(recordings);
   element("class-rows").replaceChildren(...recordings.flatMap((one) => rowsOf(one, shown, actions)));
 }

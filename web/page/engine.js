@@ -8,7 +8,10 @@ export class Trapped extends Error {}
 async function libraryModule() {
   const inside = await packed("LIBRARY");
   if (inside) return WebAssembly.compile(inside);
-  return WebAssembly.compileStreaming(fetch("library.wasm"));
+  const response = await fetch("library.wasm");
+  if (!response.ok) throw new Error(`library.wasm: ${response.statusText}`);
+  // Whatever type the server gives it.
+  return WebAssembly.compile(await response.arrayBuffer());
 }
 
 async function workerAddress() {

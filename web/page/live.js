@@ -15,11 +15,23 @@ function lineOf({ restitution, bounces, first_s: first, last_s: last }) {
   return `${e}, ${counted(bounces, "bounce")} in ${fixed(last - first, 1)} s`;
 }
 
+function joined(blocks) {
+  const samples = new Float32Array(blocks.reduce((sum, block) => sum + block.length, 0));
+  let at = 0;
+  for (const block of blocks) {
+    samples.set(block, at);
+    at += block.length;
+  }
+  return samples;
+}
+
 export class LivePanel {
   #engine;
   #recorded;
   #microphone = null;
   #blocks = [];
+  #handed = 0;
+  #isHanding = false;
   #seconds = 0;
   #shownDb = -72;
   #clipped = 0;
@@ -38,6 +50,7 @@ export class LivePanel {
     say("");
     Object.assign(element("live-drops"), { textContent: "" });
     this.#blocks = [];
+    this.#handed = 0;
     this.#seconds = 0;
     this.#clipped = 0;
     this.#lines.clear();
@@ -73,13 +86,25 @@ export class LivePanel {
       await this.#stop();
       return;
     }
+    await this.#handOver();
+  }
+
+  // Hands over what was not heard yet; while the worker is at it, more comes together.
+  async #handOver() {
+    if (this.#isHanding) return;
+    this.#isHanding = true;
     try {
-      const { told, hears } = await this.#engine.ask("hear", { samples: block });
-      element("live-state").textContent = hears ? "Hearing something…" : "Listening…";
-      for (const drop of told) this.#tell(drop);
+      while (this.#microphone && this.#handed < this.#blocks.length) {
+        const samples = joined(this.#blocks.slice(this.#handed));
+        this.#handed = this.#blocks.length;
+        const { told, hears } = await this.#engine.ask("hear", { samples });
+        element("live-state").textContent = hears ? "Hearing something…" : "Listening…";
+        for (const drop of told) this.#tell(drop);
+      }
     } catch {
       // The recording is kept here whatever happens to the worker; it is measured in the end.
     }
+    this.#isHanding = false;
   }
 
   #meter(block) {
@@ -106,12 +131,7 @@ export class LivePanel {
     this.#microphone = null;
     await microphone.close();
     this.#show(false);
-    const samples = new Float32Array(this.#blocks.reduce((sum, block) => sum + block.length, 0));
-    let at = 0;
-    for (const block of this.#blocks) {
-      samples.set(block, at);
-      at += block.length;
-    }
+    const samples = joined(this.#blocks);
     this.#blocks = [];
     if (samples.length === 0) {
       say("Nothing came from the microphone.");
