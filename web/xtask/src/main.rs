@@ -34,7 +34,9 @@ fn bound(library: &Path, dist: &Path) -> Result<(String, Vec<u8>), Box<dyn Error
     let mut bindgen = Bindgen::new();
     bindgen.input_path(library).out_name("library");
     bindgen.no_modules(true)?.typescript(false);
-    bindgen.remove_producers_section(true).remove_name_section(true);
+    bindgen
+        .remove_producers_section(true)
+        .remove_name_section(true);
     bindgen.generate(&aside)?;
     let read = || -> io::Result<(String, Vec<u8>)> {
         Ok((
