@@ -11,6 +11,7 @@ mod findings;
 mod irregular;
 mod labelled;
 mod listener;
+mod live;
 mod louder_before;
 mod model;
 mod scene;
@@ -22,6 +23,7 @@ mod warnings;
 pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
 pub use listener::Listener;
+pub use live::{Live, Told};
 pub use timed::analyze_times;
 
 use crate::Error;
