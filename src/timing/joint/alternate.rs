@@ -7,7 +7,7 @@
 use super::align::Aligned;
 use super::standard_error::overdispersions;
 use super::start::{Started, period};
-use super::{Place, Prior, UNLIKE, usual_move};
+use super::{Place, Prior, usual_move};
 use crate::signal::correlate::Correlator;
 use crate::signal::template::{Sample, Template};
 use crate::units::{real, samples_in};
@@ -78,15 +78,11 @@ impl<'a> Joint<'a> {
         self.rests_since(&before)
     }
 
-    /// A round by the heads and one by the whole template; where impacts are alike, as many as it takes them to rest.
-    pub(super) fn sketch(&mut self) {
+    /// Refines times and template without jumps, by the heads first and then by the whole template.
+    pub(super) fn settle_whole(&mut self) {
         self.round(&mut self.heads());
         self.learn_whole();
-        if self.unlike_now() <= UNLIKE {
-            self.settle();
-        } else {
-            self.round(&mut self.heads());
-        }
+        self.settle();
     }
 
     /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places

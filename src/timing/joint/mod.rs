@@ -120,12 +120,16 @@ pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Vec<Im
     Some(timed(whitened.sound(), coarse, &started, &corrected))
 }
 
-/// The same without jumps and time walk, alike or not, and their template: by it more of them are found.
+/// The same without jumps and time walk, or as they are aligned where they are unlike, and their template: by it more of them
+/// are found.
 pub(super) fn sketch(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<Impact>, Template)> {
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
-    let mut joint = Joint::of(&started, aligned, 1);
-    joint.sketch();
+    let mut joint = Joint::of(&started, aligned.clone(), 1);
+    if joint.unlike() <= UNLIKE {
+        joint = Joint::of(&started, aligned, 1);
+        joint.settle_whole();
+    }
     let corrected = Corrected::without_walk(joint);
     let timed = timed(whitened.sound(), coarse, &started, &corrected);
     Some((timed, corrected.joint.template))
