@@ -25,12 +25,7 @@ impl<'a> Stretch<'a> {
     }
 
     /// The impacts of a chain with their times.
-    pub(super) fn timed(
-        &self,
-        chain: &Chain,
-        sound: &Whitened<'_>,
-        timing: Timing,
-    ) -> Vec<Impact> {
+    pub(super) fn timed(&self, chain: &Chain, sound: &Whitened<'_>, timing: Timing) -> Vec<Impact> {
         timing::refine(sound, &coarse(chain), timing)
     }
 

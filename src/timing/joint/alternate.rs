@@ -78,11 +78,14 @@ impl<'a> Joint<'a> {
         self.rests_since(&before)
     }
 
-    /// Refines times and template without jumps, by the heads first and then by the whole template.
+    /// Refines times and template by the heads first and then by the whole template, with jumps once those rest.
     pub(super) fn settle_whole(&mut self) {
         self.round(&mut self.heads());
         self.learn_whole();
         self.settle();
+        if self.jump(&mut vec![0.0; self.places.len()]) {
+            self.settle();
+        }
     }
 
     /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places

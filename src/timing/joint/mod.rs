@@ -120,9 +120,12 @@ pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Vec<Im
     Some(timed(whitened.sound(), coarse, &started, &corrected))
 }
 
-/// The same without jumps and time walk, or as they are aligned where they are unlike, and their template: by it more of them
+/// The same with few jumps and without time walk, or as they are aligned where they are unlike, and their template: by it more of them
 /// are found.
-pub(super) fn sketch(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<Impact>, Template)> {
+pub(super) fn sketch(
+    whitened: &Whitened<'_>,
+    coarse: &[Impact],
+) -> Option<(Vec<Impact>, Template)> {
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
     let mut joint = Joint::of(&started, aligned.clone(), 1);

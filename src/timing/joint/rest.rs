@@ -48,7 +48,9 @@ impl Joint<'_> {
             let on = beyond.iter().zip(&moves);
             let on = on.map(|(z, m)| (1.0 + left) * z * m.std - m.by);
             let each = steps.iter().zip(on).enumerate();
-            heads = each.map(|(i, (step, on))| self.go_on(i, step, on)).collect();
+            heads = each
+                .map(|(i, (step, on))| self.go_on(i, step, on))
+                .collect();
             let stretches = &self.started.contact_stretches;
             self.template.learn_shape(&heads, stretches);
             if greatest(&beyond) < REST {

@@ -90,7 +90,11 @@ impl Learning {
             if turned(&moves, &moved) {
                 share *= 0.5;
             }
-            let rest = if centred(&posteriors, windows) { REST } else { REST_ASIDE };
+            let rest = if centred(&posteriors, windows) {
+                REST
+            } else {
+                REST_ASIDE
+            };
             if !moved.is_empty() && moved.iter().all(|m| m.abs() < rest * share / LEARNT) {
                 break;
             }
