@@ -80,6 +80,28 @@ pub fn listen(
     request.listen(stream, name)
 }
 
+/// Fits the impacts of each drop that a person set in a stream, as [`labels::drops`](crate::report::labels::drops) gives
+/// them: exactly those, nothing is searched for. Where listening starts and ends has no meaning here.
+///
+/// # Errors
+/// As for [`listen`]; [`Error::Line`] within [`Error::InFile`] for an impact after the end and for a drop of which fewer
+/// than two impacts were heard.
+pub fn fit_labelled(
+    stream: Stream<'_>,
+    name: &str,
+    drops: Vec<Vec<Marked>>,
+    channel: Channel,
+    settings: &Settings,
+) -> Result<Report, Error> {
+    let request = Request {
+        settings: settings.clone(),
+        channel,
+        labels: Some((Path::new("labels"), drops)),
+        rule: None,
+    };
+    request.listen(stream, name)
+}
+
 impl Request<'_> {
     /// The report of a stream, which is read to its end.
     pub(crate) fn listen(&self, stream: Stream<'_>, name: &str) -> Result<Report, Error> {
@@ -115,7 +137,9 @@ impl Request<'_> {
     /// The report of times that were typed in, each with this standard error.
     pub(crate) fn fit(&self, typed: &Typed, std_s: f64, name: &str) -> Result<Report, Error> {
         let settings = self.settings();
-        let mut analysis = fit_times(&typed.drops_s, std_s, &settings)?;
+        let with_errors = |times: &Vec<f64>| times.iter().map(|&t| (t, std_s)).collect();
+        let drops: Vec<Vec<(f64, f64)>> = typed.drops_s.iter().map(with_errors).collect();
+        let mut analysis = fit_times(&drops, &settings)?;
         analysis.warnings.extend(typed.names());
         let last = typed.drops_s.iter().filter_map(|times| times.last());
         let duration_s = last.copied().fold(0.0, f64::max) / settings.time_scale;

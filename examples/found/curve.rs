@@ -51,14 +51,15 @@ fn times(height_m: f64, rng: &mut SplitMix64) -> Vec<f64> {
 fn held(seed: u64) -> (usize, f64) {
     let mut rng = SplitMix64::new(seed);
     let share = |i: usize| i as f64 / (DROPS - 1) as f64;
-    let drops: Vec<Vec<f64>> = (0..DROPS)
+    let drops: Vec<Vec<(f64, f64)>> = (0..DROPS)
         .map(|i| times(0.05 * 30.0_f64.powf(share(i)), &mut rng))
+        .map(|times| times.into_iter().map(|t| (t, TIME_STD_S)).collect())
         .collect();
     let settings = Settings::default()
         .mass_kg(BALL.mass_kg)
         .diameter_m(BALL.diameter_m)
         .contact_time_s(CONTACT_S);
-    let analysis = fit_times(&drops, TIME_STD_S, &settings).unwrap();
+    let analysis = fit_times(&drops, &settings).unwrap();
     let recording = RecordingInfo::new(0.0, 10.0, "made");
     let report = Report::new("made".to_owned(), recording, settings, analysis, None);
     let curve = Bounces::of(&report).curve().unwrap();

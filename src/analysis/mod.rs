@@ -12,6 +12,7 @@ mod first_rebound;
 mod irregular;
 mod labelled;
 mod listener;
+mod live;
 mod louder_before;
 mod model;
 mod release;
@@ -24,6 +25,7 @@ mod warnings;
 pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
 pub use listener::Listener;
+pub use live::{Live, Told};
 pub use times::fit_times;
 
 use crate::Error;

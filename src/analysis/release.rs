@@ -136,7 +136,8 @@ mod tests {
     }
 
     fn found(times: Vec<f64>, settings: &Settings) -> Release {
-        let analysis = fit_times(&[times], 1e-5, settings).unwrap();
+        let times = times.into_iter().map(|t| (t, 1e-5)).collect();
+        let analysis = fit_times(&[times], settings).unwrap();
         analysis.drops[0].release.clone().unwrap()
     }
 
@@ -188,7 +189,7 @@ mod tests {
     #[test]
     fn one_flight_tells_no_release() {
         let settings = Settings::default().height_m(1.0);
-        let analysis = fit_times(&[vec![0.0, 0.8]], 1e-4, &settings).unwrap();
+        let analysis = fit_times(&[vec![(0.0, 1e-4), (0.8, 1e-4)]], &settings).unwrap();
         assert!(analysis.drops[0].release.is_none());
     }
 }

@@ -13,18 +13,19 @@ use crate::signal::sound::Sound;
 const FEWEST: usize = 2;
 
 /// Fits drops whose impact times were measured by other means, such as a light gate, a video or a list: what
-/// [`analyze`](crate::analyze) says once it has the times of a recording. Each drop is its times in seconds, all with the
-/// same independent standard error, by a clock that may run at another rate (`time_scale`). Where listening starts and ends, and how impacts are timed, has no meaning here.
+/// [`analyze`](crate::analyze) says once it has the times of a recording. Each drop is its times with their independent standard
+/// errors, `(time, error)` in seconds, by a clock that may run at another rate (`time_scale`). It is taken to have been
+/// watched whole. Where listening starts and ends, and how impacts are timed, has no meaning here.
 ///
 /// ```
 /// use bounce_audio::{Settings, fit_times};
 ///
 /// // Flights of 0.8, 0.64, 0.512, … s.
-/// let mut times = vec![0.0];
+/// let mut times = vec![(0.0, 1e-4)];
 /// for n in 0..8 {
-///     times.push(times[n] + 0.8 * 0.8_f64.powi(n as i32));
+///     times.push((times[n].0 + 0.8 * 0.8_f64.powi(n as i32), 1e-4));
 /// }
-/// let analysis = fit_times(&[times], 1e-4, &Settings::default())?;
+/// let analysis = fit_times(&[times], &Settings::default())?;
 /// let e = analysis.drops[0].restitution.as_ref().map(|r| r.estimate.value);
 /// assert!((e.unwrap_or(0.0) - 0.8).abs() < 0.002);
 /// # Ok::<(), bounce_audio::Error>(())
@@ -33,25 +34,15 @@ const FEWEST: usize = 2;
 /// # Errors
 /// [`Error::Argument`] for a setting out of range, a standard error that is none, no drops, fewer than two times, and times
 /// that do not grow.
-pub fn fit_times(
-    drops: &[Vec<f64>],
-    time_std_s: f64,
-    settings: &Settings,
-) -> Result<Analysis, Error> {
+pub fn fit_times(drops: &[Vec<(f64, f64)>], settings: &Settings) -> Result<Analysis, Error> {
     settings.check()?;
-    if !(time_std_s > 0.0 && time_std_s.is_finite()) {
-        return Err(Error::argument("time error", time_std_s, "above 0"));
-    }
     if drops.is_empty() {
         return Err(Error::argument("number of drops", 0.0, "1 or more"));
     }
-    let passed = |times: &Vec<f64>| times.iter().map(|t| t / settings.time_scale).collect();
-    let drops: Vec<Vec<f64>> = drops.iter().map(passed).collect();
-    let time_std_s = time_std_s / settings.time_scale;
     let fitted = drops
         .iter()
         .zip(1..)
-        .map(|(times, number)| fitted(times, number, time_std_s, settings));
+        .map(|(times, number)| fitted(times, number, settings));
     Ok(Analysis {
         drops: fitted.collect::<Result<_, Error>>()?,
         candidate: None,
@@ -61,23 +52,31 @@ pub fn fit_times(
     })
 }
 
-fn fitted(times_s: &[f64], number: usize, std_s: f64, settings: &Settings) -> Result<Drop, Error> {
-    check(times_s, number)?;
-    let impact = |&time_s: &f64| Impact {
-        time_s,
-        std_s,
+fn fitted(times: &[(f64, f64)], number: usize, settings: &Settings) -> Result<Drop, Error> {
+    check(times, number)?;
+    let impact = |&(time_s, std_s): &(f64, f64)| Impact {
+        time_s: time_s / settings.time_scale,
+        std_s: std_s / settings.time_scale,
         status: Status::Heard,
         nats: f64::INFINITY,
     };
     let chain = Chain {
-        impacts: times_s.iter().map(impact).collect(),
+        impacts: times.iter().map(impact).collect(),
         rejected: Vec::new(),
+    };
+    let stds = chain.impacts.iter().map(|i| 1e3 * i.std_s);
+    let (least, most) = stds.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), s| {
+        (a.min(s), b.max(s))
+    });
+    let errors = if least < most {
+        format!("± {least} to {most} ms")
+    } else {
+        format!("each ± {most} ms")
     };
     let mut measured = fit(&NO_SOUND, chain, 0, settings)?;
     let message = format!(
-        "the times are given: {}, each ± {} ms",
-        counted(times_s.len(), "impact"),
-        1e3 * std_s
+        "the times are given: {}, {errors}",
+        counted(times.len(), "impact"),
     );
     measured.given = Some(Warning::new(WarningCode::ImpactsGiven, message));
     measured.within(no_end(), settings)
@@ -96,22 +95,26 @@ const fn no_end() -> Extent {
     }
 }
 
-fn check(times_s: &[f64], number: usize) -> Result<(), Error> {
+fn check(times: &[(f64, f64)], number: usize) -> Result<(), Error> {
     let wrong = |got: String, expected| Error::Argument {
         argument: "times",
         got,
         expected,
     };
-    if times_s.len() < FEWEST {
-        let got = format!("{} in drop {number}", times_s.len());
+    if times.len() < FEWEST {
+        let got = format!("{} in drop {number}", times.len());
         return Err(wrong(got, "two or more, which bound a flight"));
     }
-    if let Some(time_s) = times_s.iter().find(|t| !t.is_finite()) {
+    if let Some((time_s, _)) = times.iter().find(|(t, _)| !t.is_finite()) {
         return Err(wrong(format!("{time_s} s in drop {number}"), "numbers"));
     }
-    match times_s.windows(2).find(|pair| pair[1] <= pair[0]) {
+    let certain = |std_s: f64| std_s > 0.0 && std_s.is_finite();
+    if let Some(&(_, std_s)) = times.iter().find(|(_, s)| !certain(*s)) {
+        return Err(Error::argument("time error", std_s, "above 0"));
+    }
+    match times.windows(2).find(|pair| pair[1].0 <= pair[0].0) {
         Some(pair) => {
-            let got = format!("{} s after {} s in drop {number}", pair[1], pair[0]);
+            let got = format!("{} s after {} s in drop {number}", pair[1].0, pair[0].0);
             Err(wrong(got, "times that grow"))
         }
         None => Ok(()),
@@ -142,7 +145,9 @@ mod tests {
             (vec![vec![0.0, f64::NAN]], 1e-3, "NaN s in drop 1"),
             (vec![times(0.8, 0.5, 4)], 0.0, "time error is 0"),
         ] {
-            let error = fit_times(&drops, std_s, &settings).unwrap_err().to_string();
+            let with_errors = |times: Vec<f64>| times.into_iter().map(|t| (t, std_s)).collect();
+            let drops: Vec<Vec<(f64, f64)>> = drops.into_iter().map(with_errors).collect();
+            let error = fit_times(&drops, &settings).unwrap_err().to_string();
             assert!(error.starts_with(said) || error.contains(said), "{error}");
         }
     }
@@ -151,7 +156,9 @@ mod tests {
     fn a_list_that_ends_early_has_e_and_no_total_time() {
         let settings = Settings::default().height_m(0.9);
         let fall_s = (2.0_f64 * 0.9 / 9.81).sqrt();
-        let analysis = fit_times(&[times(0.8, 1.6 * fall_s, 7)], 1e-4, &settings).unwrap();
+        let times = times(0.8, 1.6 * fall_s, 7);
+        let times = times.into_iter().map(|t| (t, 1e-4)).collect();
+        let analysis = fit_times(&[times], &settings).unwrap();
         let drop = &analysis.drops[0];
         assert!(drop.total_time_s.is_none() && drop.impacts[0].level_db.is_none());
         let e = drop.estimates.first_rebound.unwrap();

@@ -74,9 +74,7 @@ impl<'a> Clutter<'a> {
         let first = self.events.partition_point(|e| e.time_s < from_s);
         let last = self.events.partition_point(|e| e.time_s <= to_s);
         let others = (first..last).filter(|&i| i != event);
-        others
-            .map(|i| loudness_kernel(&self.events[i], this))
-            .sum()
+        others.map(|i| loudness_kernel(&self.events[i], this)).sum()
     }
 
     /// How many seconds lie within so many of an event.
@@ -90,8 +88,8 @@ impl<'a> Clutter<'a> {
 
     fn at_large(&self, event: usize) -> f64 {
         let this = &self.events[event];
-        let range =
-            self.place_of(this.loudness - KERNEL_REACH)..self.place_of(this.loudness + KERNEL_REACH);
+        let range = self.place_of(this.loudness - KERNEL_REACH)
+            ..self.place_of(this.loudness + KERNEL_REACH);
         let step = range.len().div_ceil(COMPARED).max(1);
         let some = self.by_loudness[range].iter().step_by(step);
         let others = some.filter(|&&i| i != event);

@@ -79,7 +79,7 @@ pub(super) fn heard(
         rejected: Vec::new(),
     };
     let sound = stretch.whitened(&chain);
-    let timed = stretch.timed(&chain, &sound, settings.timing).impacts;
+    let timed = stretch.timed(&chain, &sound, settings.timing);
     let timed = timed
         .into_iter()
         .map(|impact| onset::doubted(stretch, impact));

@@ -30,6 +30,15 @@ pub struct Digest {
     pub found: Found,
 }
 
+impl Digest {
+    /// A recording that could not be analyzed, with the reason.
+    #[must_use]
+    pub const fn failed(file: String, reason: String) -> Self {
+        let found = Found::Failed(reason);
+        Self { file, found }
+    }
+}
+
 /// The result of one recording.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]

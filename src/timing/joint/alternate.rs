@@ -78,7 +78,17 @@ impl<'a> Joint<'a> {
         self.rests_since(&before)
     }
 
-    /// The same with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
+    /// Refines times and template by the heads first and then by the whole template, with jumps once those rest.
+    pub(super) fn settle_whole(&mut self) {
+        self.round(&mut self.heads());
+        self.learn_whole();
+        self.settle();
+        if self.jump(&mut vec![0.0; self.places.len()]) {
+            self.settle();
+        }
+    }
+
+    /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
     /// that match nearly as well.
     pub(super) fn search_and_settle(&mut self) -> Vec<f64> {
         let mut ambiguities = vec![0.0; self.places.len()];

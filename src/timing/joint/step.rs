@@ -92,9 +92,9 @@ impl Joint<'_> {
         }
     }
 
-    /// Goes on from where a step led by so many such steps, at most by [`STEP`]; gives the head where the impact then stands.
-    pub(super) fn go_on(&mut self, i: usize, step: &Step, left: f64) -> Sample {
-        let by = (left * step.moved.by).clamp(-STEP, STEP);
+    /// Goes on from where a step led, by at most [`STEP`]; gives the head where the impact then stands.
+    pub(super) fn go_on(&mut self, i: usize, step: &Step, by: f64) -> Sample {
+        let by = by.clamp(-STEP, STEP);
         self.places[i].position += by;
         Sample {
             amplitude: self.places[i].amplitude,

@@ -3,7 +3,7 @@
 use super::bands::{AFTER_S, Band, FOOT_S, Window, Windows};
 use super::fusion::Posterior;
 use crate::signal::logarithm::ln_from_one;
-use crate::units::{real, samples_in, whole};
+use crate::units::{real, samples_in};
 
 /// Segments in which the rise is constant, …
 const SEGMENTS: usize = 11;
@@ -72,29 +72,12 @@ impl Segments {
     /// For a foot at an index of the sums.
     fn at(sums: &[f64], foot: usize, ends: &[usize; SEGMENTS]) -> Self {
         let last = sums.len() - 1;
-        let index = |k: usize| (foot + k).min(last);
-        Self::of(ends, |k| (real(index(k)), sums[index(k)]))
-    }
-
-    /// For a foot between indices.
-    fn between(sums: &[f64], foot: f64, ends: &[usize; SEGMENTS]) -> Self {
-        let last = real(sums.len() - 1);
-        Self::of(ends, |k| {
-            let at = (foot + real(k)).clamp(0.0, last);
-            let before = whole(at);
-            let after = (before + 1).min(sums.len() - 1);
-            let share = at - real(before);
-            (at, sums[before] + share * (sums[after] - sums[before]))
-        })
-    }
-
-    /// By the samples and the energy up to so many samples after the foot.
-    fn of(ends: &[usize; SEGMENTS], up_to: impl Fn(usize) -> (f64, f64)) -> Self {
         let (mut counts, mut energies) = ([0.0; SEGMENTS], [0.0; SEGMENTS]);
-        let mut from = up_to(0);
-        for (k, &end) in ends.iter().enumerate() {
-            let to = up_to(end);
-            (counts[k], energies[k]) = (to.0 - from.0, to.1 - from.1);
+        let mut from = foot;
+        for (k, end) in ends.iter().enumerate() {
+            let to = (foot + end).min(last);
+            counts[k] = real(to - from);
+            energies[k] = sums[to] - sums[from];
             from = to;
         }
         Self { counts, energies }
@@ -217,8 +200,7 @@ impl Rise {
         (size + gradient / information).clamp(least, most)
     }
 
-    /// Learns the rise and κ from all impacts, each over its likely places, from so many samples before them on (expectation
-    /// and maximisation).
+    /// Learns the rise and κ from all impacts, each over its likely places (expectation and maximisation).
     ///
     /// # Formula
     /// `κ = 2/(m·var)`, the variance of means of m values of x²/V, over that of independent ones.
@@ -227,8 +209,7 @@ impl Rise {
         band: &Band,
         likelihoods: &[Likelihood],
         windows: &Windows,
-        (now, late): (&[Posterior], f64),
-        share: f64,
+        now: &[Posterior],
     ) {
         let mut lesson = Lesson::default();
         for (((l, w), sums), posterior) in
@@ -237,18 +218,18 @@ impl Rise {
             let sure = 1.0 / (1.0 + (posterior.std / self.certain).powi(2));
             let likely = posterior.p.iter().enumerate();
             for (place, &p) in likely.filter(|(_, p)| **p > LEAST_SHARE) {
-                let foot = real(w.onset(place, windows) - self.foot) - late;
-                let segments = Segments::between(sums, foot, &self.ends);
+                let foot = w.onset(place, windows) - self.foot;
+                let segments = Segments::at(sums, foot, &self.ends);
                 lesson.add(&segments, l.fits[place], &self.values, (p, sure));
             }
         }
-        let towards = |known: f64, learnt: f64| known * (learnt / known).powf(share);
+        // Half of the way: more certain places make a steeper rise and the other way round.
         if let Some(kappa) = lesson.kappa() {
-            self.kappa = towards(self.kappa, kappa.clamp(KAPPAS.0, KAPPAS.1));
+            self.kappa = (self.kappa * kappa.clamp(KAPPAS.0, KAPPAS.1)).sqrt();
         }
         let learnt = lesson.rise(&self.values);
         for (value, learnt) in self.values.iter_mut().zip(learnt) {
-            *value = towards(*value, learnt);
+            *value = (*value * learnt).sqrt();
         }
     }
 }
