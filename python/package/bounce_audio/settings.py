@@ -44,6 +44,10 @@ class Settings(TypedDict, total=False):
     start_s: float | None
     #: Listen up to here. Default: the end.
     end_s: float | None
+    #: Seconds of the recording in one of the ball's: 8 for slow motion of eight times. Default 1.
+    time_scale: float
+    #: Standard error of the clock's rate, as a share. Default 0.
+    clock_std: float
     #: How impacts are timed, from fastest to most exact. Default "correlation".
     timing: Literal["envelope", "fraction", "correlation"]
 
