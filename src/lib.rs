@@ -2,7 +2,8 @@
 //!
 //! [`analyze`] takes samples in memory and a rate, and gives the drops that it hears: when the ball hit, the coefficient of
 //! restitution with its error, the model that the recording supports. [`Listener`] takes a recording of any length block by
-//! block. No file, thread, clock or terminal is touched in either.
+//! block, [`Live`] tells each drop as it is played, and [`analyze_times`] takes times alone. No file, thread, clock or terminal is
+//! touched in any of them.
 //!
 //! ```
 //! use bounce_audio::{Settings, analyze};
@@ -30,12 +31,12 @@
 //!
 //! | feature | what it adds to the core |
 //! |---|---|
-//! | | `analyze`, `Listener`, `Settings`; [`report`]: what was found, as data, and its text, JSON, CSV and labels; [`physics`]: flight, contact and the paper's equations |
+//! | | `analyze`, `analyze_times`, `Listener`, `Live`, `Settings`; [`report`]: what was found, as data, and its text, JSON, CSV and labels; [`physics`]: flight, contact and the paper's equations |
 //! | `audio` | `audio`: files and pipes to samples (WAV, FLAC, MP3, MP4 and others); `recording`: from there to a report |
 //! | `plots` | `picture`: a report as SVG and PNG |
 //! | `lab` | `synth`: recordings with known truth |
 //! | `cli` | `cli::run`, the command line; it is switched on by default, with all of the above |
-//! | `internals` | the stages, for this package's own tests, examples and benches; it promises nothing |
+//! | `internals` | the stages, for this project's own tests, examples, benches and Python package; it promises nothing |
 //!
 //! The stages of the core, each a folder: `signal` (octave bands, whitening, correlation, interpolation), `detect` (candidate
 //! impacts), `sequence` (the chain that is a drop), `timing` (the times of its impacts), `fit` (e from these), `analysis` (the
@@ -113,7 +114,7 @@ pub use stages::*;
 #[expect(clippy::wildcard_imports, reason = "the list above is the only one")]
 use stages::*;
 
-pub use analysis::{Listener, Settings, analyze, analyze_clearest};
+pub use analysis::{Listener, Live, Settings, Told, analyze, analyze_clearest, analyze_times};
 pub use error::Error;
 pub use fit::model_selection::Choice as ModelChoice;
 pub use report::{Analysis, Drop, Report, Warning, WarningCode};

@@ -32,6 +32,7 @@ fn spare_what_is_caught() {
 
 fn print(outcome: &Outcome) -> Result<ExitCode, Error> {
     let mut stdout = std::io::stdout().lock();
+    std::io::stderr().write_all(outcome.note.as_bytes()).ok();
     match stdout
         .write_all(outcome.output.as_bytes())
         .and_then(|()| stdout.flush())

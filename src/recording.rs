@@ -78,6 +78,28 @@ pub fn listen(
     request.listen(stream, name)
 }
 
+/// Fits the impacts of each drop that a person set in a stream, as [`labels::drops`](crate::report::labels::drops) gives
+/// them: exactly those, nothing is searched for. Where listening starts and ends has no meaning here.
+///
+/// # Errors
+/// As for [`listen`]; [`Error::Line`] within [`Error::InFile`] for an impact after the end and for a drop of which fewer
+/// than two impacts were heard.
+pub fn fit_labelled(
+    stream: Stream<'_>,
+    name: &str,
+    drops: Vec<Vec<Marked>>,
+    channel: Channel,
+    settings: &Settings,
+) -> Result<Report, Error> {
+    let request = Request {
+        settings: settings.clone(),
+        channel,
+        labels: Some((Path::new("labels"), drops)),
+        rule: None,
+    };
+    request.listen(stream, name)
+}
+
 impl Request<'_> {
     /// The report of a stream, which is read to its end.
     pub(crate) fn listen(&self, stream: Stream<'_>, name: &str) -> Result<Report, Error> {

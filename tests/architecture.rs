@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 const MAY_NAME: [(&str, &[&str]); 27] = [
     ("error.rs", &[]),
     ("words.rs", &[]),
-    ("units.rs", &[]),
+    ("units", &[]),
     ("random.rs", &[]),
     ("event.rs", &[]),
     ("impact.rs", &["words"]),
@@ -119,9 +119,10 @@ const OUTSIDE: [&str; 12] = [
 ];
 
 /// Crates that a feature brings, and who may name them: the core is without.
-const OPTIONAL: [(&str, &[&str]); 11] = [
+const OPTIONAL: [(&str, &[&str]); 12] = [
     ("hound", &["audio"]),
     ("symphonia", &["audio"]),
+    ("ab_glyph", &["plot"]),
     ("plotters", &["plot"]),
     ("plotters_backend", &["plot"]),
     ("png", &["plot"]),
@@ -142,7 +143,7 @@ const SURFACE: [&str; 12] = [
     "pub mod picture; // plots",
     "pub mod recording; // audio",
     "pub mod synth; // lab",
-    "pub use analysis::{Listener, Settings, analyze, analyze_clearest};",
+    "pub use analysis::{Listener, Live, Settings, Told, analyze, analyze_clearest, analyze_times};",
     "pub use error::Error;",
     "pub use fit::model_selection::Choice as ModelChoice;",
     "pub use report::{Analysis, Drop, Report, Warning, WarningCode};",

@@ -71,17 +71,17 @@ fn evaluated(names: impl Iterator<Item = &'static str>) -> Evaluation {
 
 /// Figures that were once better and are owed: the threshold of the scene stays, and until it is met again this holds.
 /// What repays one takes it out here.
-const OWED: [(&str, &str, f64); 7] = [
+const OWED: [(&str, &str, f64); 6] = [
+    // Of 74 intervals 71 hold e.
+    ("all", "coverage95", 0.955),
     // Times go on until nothing moves, and no longer stop after six rounds: by that some medians are worse. The 90th percentile of
     // the errors of e is smaller.
-    ("basketball", "timing_error_median_s", 1e-4),
     ("caught", "timing_error_median_s", 9e-7),
-    ("golf", "timing_error_median_s", 3.4e-6),
-    // Six of 83 impacts, the last of a ring that lasts far longer than their flights.
-    ("plate", "recall", 0.92),
-    ("rolling", "timing_error_median_s", 5.3e-6),
+    // Two of 83 impacts, the last of a ring that lasts far longer than their flights.
+    ("plate", "recall", 0.97),
+    ("squash", "timing_error_median_s", 1.1e-6),
     ("stone", "timing_error_median_s", 4.6e-7),
-    ("two-balls", "timing_error_median_s", 1.65e-7),
+    ("three-drops", "timing_error_median_s", 5.8e-6),
 ];
 
 /// The same of the second suite: words and taps that quicken and fade, all of one sound, are taken for a ball; and
@@ -95,7 +95,7 @@ const OWED_OF_FOUND: [(&str, &str, f64); 11] = [
     ("scatter-5", "timing_error_median_s", 6e-7),
     ("scatter-8", "timing_error_median_s", 4.5e-7),
     ("splice", "timing_error_median_s", 5.9e-7),
-    ("thumps", "timing_error_median_s", 6.2e-5),
+    ("thumps", "timing_error_median_s", 7.0e-5),
     ("words", "false_drops", 4.0),
     ("words-and-tennis", "false_drops", 3.0),
 ];
@@ -111,7 +111,7 @@ fn assert_reached(evaluation: &Evaluation, thresholds: &str, owed: &[(&str, &str
             complaints.remove(place.unwrap_or_else(|| panic!("{about}what was owed, and is paid")));
         let value = complaint[about.len()..].split(',').next().unwrap();
         let value: f64 = value.parse().unwrap();
-        let holds = if matches!(*figure, "precision" | "recall") {
+        let holds = if matches!(*figure, "coverage95" | "precision" | "recall") {
             value >= *bound
         } else {
             value <= *bound

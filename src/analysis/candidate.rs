@@ -30,7 +30,6 @@ impl Candidate {
         let followed = Followed {
             sound: stretch.whitened(&found.chain),
             chain: found.chain,
-            timed: None,
         };
         Ok(Self {
             measured: drop::measure(stretch, followed, channel, settings)?,

@@ -19,7 +19,6 @@ use crate::report::{
 };
 use crate::sequence::Chain;
 use crate::statistics::upper_median;
-use crate::timing::Timing;
 
 /// A drop as measured, before its estimates: those depend on the end of the recording, which is known last.
 #[derive(Debug, Clone)]
@@ -154,14 +153,8 @@ pub(super) fn measure(
     channel: usize,
     settings: &Settings,
 ) -> Result<Measured, Error> {
-    let Followed {
-        chain,
-        sound,
-        timed,
-    } = followed;
-    let known = timed.filter(|_| settings.timing == Timing::Correlation);
-    let timed = || stretch.timed(&chain, &sound, settings.timing).impacts;
-    let impacts = known.unwrap_or_else(timed);
+    let Followed { chain, sound } = followed;
+    let impacts = stretch.timed(&chain, &sound, settings.timing);
     fit(stretch, Chain { impacts, ..chain }, channel, settings)
 }
 

@@ -4,7 +4,7 @@ use super::{Settings, model};
 use crate::Error;
 use crate::fit::irregular::{Alternation, Irregularity, Kind, Regularity};
 use crate::impact::Impact;
-use crate::report::{Irregular, Warning, WarningCode};
+use crate::report::{Irregular, Warning, WarningCode, listed};
 
 /// The irregular bounces; e of the other part is fitted where e changed.
 pub(super) fn reported(
@@ -36,16 +36,21 @@ pub(super) fn reported(
 pub(super) fn warnings(irregular: &[Irregular], alternation: Option<Alternation>) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if !irregular.is_empty() {
-        let numbers: Vec<String> = irregular.iter().map(|i| i.impact.to_string()).collect();
+        let numbers: Vec<usize> = irregular.iter().map(|i| i.impact).collect();
         let part = if irregular.iter().any(|i| i.kind == Kind::Changed) {
             "regular bounces of the part that lasts longer"
         } else {
             "regular bounces"
         };
+        let impact = if numbers.len() == 1 {
+            "impact"
+        } else {
+            "impacts"
+        };
         let message = format!(
-            "irregular at impact {}: e is that of the {part}. A joint, a speck, another surface or a cut of the recording \
+            "irregular at {impact} {}: e is that of the {part}. A joint, a speck, another surface or a cut of the recording \
              does this",
-            numbers.join(", ")
+            listed(&numbers)
         );
         warnings.push(Warning::new(WarningCode::IrregularBounces, message));
     }

@@ -6,7 +6,7 @@ use super::stretch::Stretch;
 use crate::Error;
 use crate::impact::Impact;
 use crate::report::labels::Marked;
-use crate::report::{Analysis, Warning, WarningCode};
+use crate::report::{Analysis, Warning, WarningCode, counted};
 use crate::sequence::Chain;
 use crate::signal::sound::Sound;
 use crate::units::real;
@@ -100,8 +100,8 @@ fn measured(
         return Err(Error::Line {
             line: marked.first().map_or(1, |m| m.line),
             problem: format!(
-                "the drop that begins here has {} impacts that were heard, a flight needs {FEWEST}",
-                chain.heard()
+                "the drop that begins here has {} heard, a flight needs {FEWEST}",
+                counted(chain.heard(), "impact")
             ),
         });
     }

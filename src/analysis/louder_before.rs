@@ -56,8 +56,8 @@ fn message(count: usize, at_s: f64, start_s: f64) -> String {
         )
     };
     format!(
-        "{sounds}: the drop may have begun there, or something else struck. If it was the ball, give its impacts with \
-         --impacts; if not, listen from --start {start_s:.2}"
+        "{sounds}: the drop may have begun there, or something else struck. If it was the ball, give its impacts as \
+         labels; if not, listen from {start_s:.2} s on"
     )
 }
 
@@ -159,7 +159,7 @@ mod tests {
             "{said}"
         );
         assert!(
-            said.contains("--impacts") && said.contains("--start 4.69"),
+            said.contains("as labels") && said.contains("from 4.69 s on"),
             "{said}"
         );
     }

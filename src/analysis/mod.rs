@@ -11,16 +11,20 @@ mod findings;
 mod irregular;
 mod labelled;
 mod listener;
+mod live;
 mod louder_before;
 mod model;
 mod scene;
 mod stretch;
 mod tail;
+mod timed;
 mod warnings;
 
 pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
 pub use listener::Listener;
+pub use live::{Live, Told};
+pub use timed::analyze_times;
 
 use crate::Error;
 use crate::report::{Analysis, RejectReason, Rejected};

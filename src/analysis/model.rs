@@ -17,6 +17,7 @@ use crate::physics::{
 };
 use crate::report::{
     Ball, ContactSource, Given, Method, Model, Parameters, Restitution, Warning, WarningCode,
+    listed,
 };
 
 /// Least ratio of the ends of a contact time's interval at which it counts as undetermined. Convention.
@@ -198,28 +199,44 @@ fn ball(
 fn warnings(selection: &Selection, first: usize) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let outliers = &selection.fit.outliers;
-    let numbers = |of: &[usize]| {
-        let numbers: Vec<String> = of.iter().map(|i| (first + i + 1).to_string()).collect();
-        numbers.join(", ")
+    let numbers = |of: &[usize]| of.iter().map(|i| first + i + 1).collect::<Vec<_>>();
+    let (bounces, times) = (numbers(&outliers.bounces), numbers(&outliers.times));
+    let message = match bounces.len() {
+        0 => None,
+        1 => Some(format!(
+            "the rebound at impact {} is unlike the others and counts",
+            listed(&bounces)
+        )),
+        _ => Some(format!(
+            "the rebounds at impacts {} are unlike the others and count",
+            listed(&bounces)
+        )),
     };
-    if !outliers.bounces.is_empty() {
-        let message = format!(
-            "the rebound at impact {} is unlike the others and counts for little: spin, or a spot of the surface",
-            numbers(&outliers.bounces)
-        );
-        warnings.push(Warning::new(WarningCode::WildBounce, message));
-    }
-    if !outliers.times.is_empty() {
-        let message = format!(
-            "the time of impact {} fits none of its neighbours and counts for little",
-            numbers(&outliers.times)
-        );
-        warnings.push(Warning::new(WarningCode::StrayTime, message));
-    }
+    warnings.extend(message.map(|message| {
+        let message =
+            message + " for little: the ball spun, or met a spot of the surface. Try another place";
+        Warning::new(WarningCode::WildBounce, message)
+    }));
+    let message = match times.len() {
+        0 => None,
+        1 => Some(format!(
+            "the time of impact {} fits none of its neighbours and counts",
+            listed(&times)
+        )),
+        _ => Some(format!(
+            "the times of impacts {} fit none of their neighbours and count",
+            listed(&times)
+        )),
+    };
+    warnings.extend(message.map(|message| {
+        let message =
+            message + " for little. Look at the sound there, and correct it by hand if it matters";
+        Warning::new(WarningCode::StrayTime, message)
+    }));
     if let Some(other) = selection.alike {
         let message = format!(
             "the model {other} explains the flights as well as {}: drag and an e that depends on speed cannot be told \
-             apart without --mass and --diameter",
+             apart. The ball's mass and diameter would tell",
             selection.selected
         );
         warnings.push(Warning::new(WarningCode::ModelsAlike, message));

@@ -8,7 +8,7 @@ use crate::detect::{SEPARATION_S, matched};
 use crate::impact::Impact;
 use crate::sequence::{self, Chain};
 use crate::signal::whiten::Whitened;
-use crate::timing::{Refined, Timing};
+use crate::timing::Sketch;
 
 /// Flights below this, in seconds, are short: the sound of one impact reaches into the next.
 const SHORT_FLIGHT_S: f64 = 0.06;
@@ -25,46 +25,30 @@ pub(super) struct Followed<'a> {
     pub chain: Chain,
     /// The sound that it is timed in, whitened by the noise around the chain.
     pub sound: Whitened<'a>,
-    /// Its impacts, those heard by correlation: the end was followed from there, and it is the same chain as before. None
-    /// where it grew, or there was no end to follow.
-    pub timed: Option<Vec<Impact>>,
 }
 
 /// The chain with its end followed by the sound of its impacts, if that finds more.
 pub(super) fn follow<'a>(stretch: &Stretch<'a>, chain: Chain) -> Followed<'a> {
     let sound = stretch.whitened(&chain);
-    let Some(region_s) = region(&chain, stretch.sound.end_s()) else {
-        return Followed {
-            chain,
-            sound,
-            timed: None,
-        };
-    };
-    let Refined {
-        impacts: timed,
-        template,
-    } = stretch.timed(&chain, &sound, Timing::Correlation);
-    let heard_s = timed.iter().filter(|i| i.is_heard()).map(|i| i.time_s);
-    let heard_s: Vec<f64> = heard_s.collect();
-    let flights = heard_s.windows(2).map(|w| w[1] - w[0]);
-    let shortest_s = flights.fold(f64::INFINITY, f64::min);
-    let found = template.and_then(|t| matched::events(&sound, &t, shortest_s, region_s));
-    let longer = found.and_then(|late| {
-        let end = sequence::follow_again(&late, &known(&timed))?;
-        joined(&chain, &end)
-    });
-    match longer {
+    match longer(stretch, &chain, &sound) {
         Some(chain) => Followed {
             sound: stretch.whitened(&chain),
             chain,
-            timed: None,
         },
-        None => Followed {
-            chain,
-            sound,
-            timed: Some(timed),
-        },
+        None => Followed { chain, sound },
     }
+}
+
+/// The chain with an end in which more was heard, if there is one.
+fn longer(stretch: &Stretch<'_>, chain: &Chain, sound: &Whitened<'_>) -> Option<Chain> {
+    let region_s = region(chain, stretch.sound.end_s())?;
+    let Sketch { impacts, template } = stretch.sketch(chain, sound)?;
+    let heard = impacts.iter().filter(|i| i.is_heard());
+    let heard_s: Vec<f64> = heard.map(|i| i.time_s).collect();
+    let flights = heard_s.windows(2).map(|w| w[1] - w[0]);
+    let shortest_s = flights.fold(f64::INFINITY, f64::min);
+    let late = matched::events(sound, &template, shortest_s, region_s)?;
+    joined(chain, &sequence::follow_again(&late, &known(&impacts))?)
 }
 
 /// Greatest distance of an impact from its match, in seconds.

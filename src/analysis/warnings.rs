@@ -6,7 +6,7 @@ use crate::fit::Estimate;
 use crate::fit::flights::Flights;
 use crate::fit::total_time::{Missing, TotalTime, left_s};
 use crate::impact::{Impact, Status};
-use crate::report::{self, Candidate, Warning, WarningCode};
+use crate::report::{self, Candidate, Warning, WarningCode, counted};
 use crate::sequence::Chain;
 
 /// Fewest impacts without a warning: fewer flights hardly distinguish a trend of e from chance. Convention.
@@ -33,7 +33,7 @@ pub(super) fn of_place(modelled: &Modelled, impacts: &[report::Impact]) -> Optio
     }
     let message = format!(
         "e lies beyond that of each bounce, {least:.4} to {most:.4}: those are by the model {} alone, e is by all models, and with \
-         another contact or drag the same flights have other speeds. --mass and --diameter or --contact-time settle it",
+         another contact or drag the same flights have other speeds. The ball's mass and diameter, or its contact time, settle it",
         modelled.model.selected
     );
     Some(Warning::new(WarningCode::BeyondBounces, message))
@@ -64,21 +64,25 @@ impl Sounds {
             );
         }
         let message = match (candidate, self.noticeable) {
-            (Some(candidate), sharp) => format!("sharp sounds: {sharp}, but no drop beyond doubt. {}", candidate.in_words()),
+            (Some(candidate), sharp) => format!(
+                "{}, but no drop beyond doubt. {}",
+                counted(sharp, "sharp sound"),
+                candidate.in_words()
+            ),
             (None, 0) => {
                 "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that the right \
                  input was recorded"
                     .to_owned()
             }
-            (None, 1) => "one sharp sound, which is no flight: e takes two impacts and --height, or three. Record for longer"
+            (None, 1) => "one sharp sound, which is no flight: e takes two impacts and the height of release, or three impacts. Record for longer"
                 .to_owned(),
             (None, sharp @ 2..=3) => format!(
-                "{sharp} sharp sounds, but no two of them are alike and a flight apart as impacts of a ball are. With --height \
-                 two impacts are enough, and the more the surer"
+                "{sharp} sharp sounds, but no two of them are alike and a flight apart as impacts of a ball are. With the \
+                 height of release two impacts are enough, and the more the surer"
             ),
             (None, sharp) => format!(
                 "{sharp} sharp sounds, but no sequence of them shrinks as the flights of a bouncing ball do. If there is a \
-                 drop, narrow the search with --start and --end"
+                 drop, listen to the part of the recording that holds it"
             ),
         };
         Warning::new(WarningCode::NoDrop, message)
@@ -90,14 +94,17 @@ pub(super) fn of_memory(left_out: usize, split: usize) -> Vec<Warning> {
     let mut warnings = Vec::new();
     if left_out > 0 {
         let message = format!(
-            "{left_out} drops with the least evidence left out: there are more than fit the memory. Listen to parts \
-             with --start and --end"
+            "{} with the least evidence left out: there are more than fit the memory. Listen to the recording part by part",
+            counted(left_out, "drop")
         );
         warnings.push(Warning::new(WarningCode::LeftOut, message));
     }
     if split > 0 {
+        let last = if split == 1 { "lasts" } else { "last" };
         let message = format!(
-            "{split} drops last longer than what is held in memory, and stand here in two parts"
+            "{} {last} longer than what is held in memory, and {} here in two parts. Record one drop at a time",
+            counted(split, "drop"),
+            if split == 1 { "stands" } else { "stand" }
         );
         warnings.push(Warning::new(WarningCode::Torn, message));
     }
@@ -110,15 +117,15 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, chain: &Chain) -> Vec<Warning> {
     let (timed, heard) = (&chain.impacts, chain.heard());
     if (FEWEST_OF_CHAIN..FEW_IMPACTS).contains(&heard) {
         let message = format!(
-            "only {heard} impacts: the error of e rests on {} ratios. Drop from higher",
-            heard - 2
+            "only {heard} impacts: the error of e rests on {}. Drop from higher, or record until the ball rests",
+            counted(heard - 2, "ratio")
         );
         warnings.push(Warning::new(WarningCode::FewImpacts, message));
     }
     let inferred = timed.len() - heard;
     if inferred > 0 {
         let message = format!(
-            "{inferred} of {} impacts not heard but inferred from their neighbours",
+            "{inferred} of {} impacts not heard but inferred from their neighbours: move the microphone nearer",
             timed.len()
         );
         warnings.push(Warning::new(WarningCode::Inferred, message));
@@ -126,8 +133,9 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, chain: &Chain) -> Vec<Warning> {
     let doubtful = timed.iter().filter(|i| i.status == Status::Doubtful);
     let doubtful = doubtful.count();
     if doubtful > 0 {
-        let message =
-            format!("{doubtful} of {heard} impacts doubtful: noise offers sounds as strong nearby");
+        let message = format!(
+            "{doubtful} of {heard} impacts doubtful, as noise offers sounds as strong nearby: record in a quieter room, or nearer"
+        );
         warnings.push(Warning::new(WarningCode::Doubtful, message));
     }
     let clipped = timed
@@ -135,7 +143,13 @@ pub(super) fn of_chain(stretch: &Stretch<'_>, chain: &Chain) -> Vec<Warning> {
         .filter(|t| t.is_heard() && is_clipped(stretch, t.time_s))
         .count();
     if clipped > 0 {
-        let message = format!("{clipped} impacts reach full scale: lower the recording level");
+        let message = {
+            let reach = if clipped == 1 { "reaches" } else { "reach" };
+            format!(
+                "{} {reach} full scale: lower the recording level, or move the microphone away",
+                counted(clipped, "impact")
+            )
+        };
         warnings.push(Warning::new(WarningCode::Clipped, message));
     }
     if let (Some(first), Some(second)) = (timed.first(), timed.get(1))
@@ -155,7 +169,7 @@ pub(super) fn of_contact(given_s: Option<f64>, timed: &[Impact]) -> Option<Warni
     let given_s = given_s.filter(|&given_s| given_s >= shortest_s)?;
     let message = format!(
         "a contact of {} ms does not fit between impacts {:.1} ms apart, and nothing that rests on it holds: check \
-         --contact-time",
+         the contact time that was given",
         1e3 * given_s,
         1e3 * shortest_s
     );
@@ -178,7 +192,7 @@ pub(super) fn of_end(
     let recorded_s = end_s - timed.last()?.time_s;
     let message = format!(
         "the recording ends before the ball rests: it would go on for about {left_s:.2} s, of which {recorded_s:.2} s \
-         were recorded. There is no T_total, and equation (25) does not apply. Record for longer"
+         were recorded. There is no total time, and equation (25) does not apply. Record for longer"
     );
     (left_s > recorded_s).then(|| Warning::new(WarningCode::CutEnd, message))
 }
@@ -193,7 +207,8 @@ pub(super) fn of_total_time(solved: &Result<TotalTime, Missing>) -> Option<Warni
             WarningCode::FirstImpactMissing,
             format!(
                 "the first flight heard is {first_flight_s:.3} s where the height makes it about {expected_s:.3} s: \
-                 the first impact is missing or --height is wrong, so equation (25) does not apply"
+                 the first impact is missing or the height is wrong, so equation (25) does not apply. Record from \
+                 before the drop, and measure the height from the ball's lowest point"
             ),
         )),
         Err(Missing::Height {
@@ -203,14 +218,14 @@ pub(super) fn of_total_time(solved: &Result<TotalTime, Missing>) -> Option<Warni
             WarningCode::HeightTooSmall,
             format!(
                 "the first flight is {first_flight_s:.3} s, but from this height it cannot exceed {longest_s:.3} s: \
-                 check --height; equation (25) does not apply"
+                 measure the height again; equation (25) does not apply"
             ),
         )),
         Err(Missing::End { left_s }) => Some(Warning::new(
             WarningCode::EndedEarly,
             format!(
                 "the impacts end {left_s:.2} s before the ball would rest: it was caught, or its last impacts are too \
-                 faint. There is no T_total, and equation (25) does not apply"
+                 faint. There is no total time, and equation (25) does not apply. Let it come to rest, and move the microphone nearer"
             ),
         )),
         Ok(TotalTime {
@@ -220,7 +235,7 @@ pub(super) fn of_total_time(solved: &Result<TotalTime, Missing>) -> Option<Warni
         }) => Some(Warning::new(
             WarningCode::NoRoot,
             format!(
-                "no e gives a total time of {total_time_s:.3} s by equation (25): check --height"
+                "no e gives a total time of {total_time_s:.3} s by equation (25): check the height"
             ),
         )),
         Ok(_) => None,

@@ -2,10 +2,11 @@
 //!
 //! What a recording is says its content, never its name (`content`). WAV is read by `wav` and what is compressed by
 //! `compressed`; a [`Stream`] is either, and holds a block of it, whatever its length. [`read_file`] holds a whole
-//! recording in memory, [`write_wav`] writes one.
+//! recording in memory, [`Stream::again`] streams it from there, [`write_wav`] writes one.
 
 mod compressed;
 mod content;
+mod memory;
 mod stream;
 mod wav;
 
@@ -68,19 +69,32 @@ impl Stream<'_> {
     ///
     /// # Errors
     /// [`Error::Wav`] or [`Error::Recording`] if it holds no audio; [`Error::Io`] if reading fails.
-    pub fn into_recording(mut self) -> Result<Recording, Error> {
+    pub fn into_recording(self) -> Result<Recording, Error> {
+        let whole = self.into_recording_within(usize::MAX)?;
+        whole.ok_or_else(|| unreadable("it is longer than any memory"))
+    }
+
+    /// Reads all channels to the end, unless they have more samples than this together: none then.
+    ///
+    /// # Errors
+    /// As for [`into_recording`](Self::into_recording).
+    pub fn into_recording_within(mut self, samples: usize) -> Result<Option<Recording>, Error> {
         let mut channels = vec![Vec::new(); self.channels()];
         let all = 0..channels.len();
-        while self.append(&all, &mut channels)? {}
+        while self.append(&all, &mut channels)? {
+            if channels.iter().map(Vec::len).sum::<usize>() > samples {
+                return Ok(None);
+            }
+        }
         let (sample_rate_hz, encoding) = (self.sample_rate_hz(), self.encoding());
         let lossy = self.is_lossy();
-        Ok(Recording {
+        Ok(Some(Recording {
             sample_rate_hz,
             channels,
             encoding,
             lossy,
             warnings: self.finish()?.warnings,
-        })
+        }))
     }
 }
 

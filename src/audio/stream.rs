@@ -7,8 +7,9 @@ use std::path::Path;
 
 use super::compressed::{self, Source};
 use super::content::{Content, HEAD_BYTES};
+use super::memory;
 use super::wav::{self, fill};
-use super::{Ending, unreadable};
+use super::{Ending, Recording, unreadable};
 use crate::Error;
 
 /// A recording that stands at its samples. What is held of it does not grow with its length.
@@ -20,6 +21,7 @@ pub struct Stream<'s> {
 enum Form<'s> {
     Wav(wav::Stream<Box<dyn Read + Send + Sync + 's>>),
     Compressed(compressed::Stream<'s>),
+    Memory(memory::Stream<'s>),
 }
 
 impl std::fmt::Debug for Form<'_> {
@@ -27,6 +29,7 @@ impl std::fmt::Debug for Form<'_> {
         match self {
             Self::Wav(stream) => f.debug_tuple("Wav").field(stream.container()).finish(),
             Self::Compressed(stream) => stream.fmt(f),
+            Self::Memory(stream) => stream.fmt(f),
         }
     }
 }
@@ -92,12 +95,21 @@ impl<'s> Stream<'s> {
         Ok(Self { form })
     }
 
+    /// A recording that was read before, once more from its start.
+    #[must_use]
+    pub const fn again(recording: &'s Recording) -> Self {
+        Self {
+            form: Form::Memory(memory::Stream::new(recording)),
+        }
+    }
+
     /// Frames per second.
     #[must_use]
     pub fn sample_rate_hz(&self) -> u32 {
         match &self.form {
             Form::Wav(stream) => stream.container().sample_rate_hz,
             Form::Compressed(stream) => stream.sample_rate_hz(),
+            Form::Memory(stream) => stream.recording.sample_rate_hz,
         }
     }
 
@@ -107,6 +119,7 @@ impl<'s> Stream<'s> {
         match &self.form {
             Form::Wav(stream) => usize::from(stream.container().channels),
             Form::Compressed(stream) => stream.channels(),
+            Form::Memory(stream) => stream.recording.channels.len(),
         }
     }
 
@@ -116,6 +129,7 @@ impl<'s> Stream<'s> {
         match &self.form {
             Form::Wav(stream) => stream.container().encoding(),
             Form::Compressed(stream) => stream.encoding(),
+            Form::Memory(stream) => stream.recording.encoding.clone(),
         }
     }
 
@@ -125,6 +139,7 @@ impl<'s> Stream<'s> {
         match &self.form {
             Form::Wav(_) => false,
             Form::Compressed(stream) => stream.is_lossy(),
+            Form::Memory(stream) => stream.recording.lossy,
         }
     }
 
@@ -140,6 +155,7 @@ impl<'s> Stream<'s> {
         match &mut self.form {
             Form::Wav(stream) => stream.append(channels, samples),
             Form::Compressed(stream) => stream.append(channels, samples),
+            Form::Memory(stream) => Ok(stream.append(channels, samples)),
         }
     }
 
@@ -151,6 +167,7 @@ impl<'s> Stream<'s> {
         match self.form {
             Form::Wav(stream) => stream.finish(),
             Form::Compressed(stream) => Ok(stream.finish()),
+            Form::Memory(stream) => Ok(stream.finish()),
         }
     }
 }

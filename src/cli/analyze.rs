@@ -14,7 +14,7 @@ use crate::Error;
 use crate::audio::Stream;
 use crate::recording::Request;
 use crate::report::text::Detail;
-use crate::report::{csv, json, text};
+use crate::report::{Report, WarningCode, csv, json, text};
 
 /// Analyze one recording of a bouncing ball.
 ///
@@ -23,12 +23,16 @@ use crate::report::{csv, json, text};
 #[command(after_help = "Examples:
   bounce-audio analyze drop.wav
   bounce-audio analyze drop.wav --height 30.5cm
+  bounce-audio analyze drop.wav --table
   bounce-audio analyze drop.wav --start 2 --end 9 --format json
   bounce-audio analyze drop.wav --plot drop.svg
-  bounce-audio analyze drop.wav --labels drop.txt       (open both in Audacity, edit, export the labels)
-  bounce-audio analyze drop.wav --impacts drop.txt      (fit what was edited)
+  bounce-audio analyze drop.wav --labels drop.txt    (open both in Audacity, edit,
+                                                      export the labels)
+  bounce-audio analyze drop.wav --impacts drop.txt   (fit what was edited)
   bounce-audio analyze drop.wav --rule ittf-ball
   bounce-audio analyze voice-memo.m4a
+  bounce-audio analyze -q drop.wav | while read -r e error bounces seconds \\
+      warnings file; do echo \"$file: $e\"; done
   ffmpeg -i drop.opus -f wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
     /// A recording (WAV, FLAC, M4A, MP3, AAC, Ogg Vorbis), or - for standard input
@@ -38,11 +42,11 @@ pub(super) struct Arguments {
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
-    /// Of the text only the answer and what to know about it: no table of impacts, nothing of what was rejected
+    /// One line a drop for a shell script: e, its error, bounces, seconds, warnings, file
     #[arg(short, long, conflicts_with = "verbose")]
     quiet: bool,
-    /// In the text every sound that was rejected, and the models that were compared
-    #[arg(short, long)]
+    /// In the text also the plain formulas, every bounce, the models compared, and the sounds rejected
+    #[arg(short, long, visible_alias = "table")]
     verbose: bool,
     /// Draw a sheet into this picture; of several drops OUT-1.svg, OUT-2.svg, …; not for a pipe
     #[arg(long, value_name = "OUT.svg|png")]
@@ -74,6 +78,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         rule: arguments.rule.rule,
         ..arguments.listening.request()
     };
+    if arguments.file.is_dir() {
+        return Err(Error::refused(format!(
+            "it is a directory. To listen to all recordings in it: bounce-audio batch {}",
+            arguments.file.display()
+        ))
+        .in_file(&arguments.file));
+    }
     let report = if arguments.file == Path::new("-") {
         let stream = Stream::open(io::stdin());
         let report = stream.and_then(|stream| request.listen(stream, "-"));
@@ -86,13 +97,63 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         draw_sheets(&target, &arguments.file, &report)?;
     }
     let output = match arguments.format {
-        Format::Text => text::to_text(&report, detail(arguments)),
+        Format::Text => {
+            let advice = |code| advice(&report, code);
+            text::to_text_with(&report, detail(arguments), &advice)
+        }
         Format::Csv => csv::to_csv(&report),
         Format::Json => json::to_json(&report).map_err(io::Error::from)?,
     };
     Ok(Outcome {
+        note: note(arguments, &report),
         output,
         status: u8::from(report.drops.is_empty()),
+    })
+}
+
+/// Why a result without a drop has no row and no line.
+fn note(arguments: &Arguments, report: &Report) -> String {
+    let rows_only = matches!(arguments.format, Format::Csv)
+        || matches!(arguments.format, Format::Text) && arguments.quiet;
+    match report.drops.is_empty() && rows_only {
+        true => format!(
+            "bounce-audio: {}: no drop: {}\n",
+            report.file,
+            report.why_none()
+        ),
+        false => String::new(),
+    }
+}
+
+/// The options with which the user can do something about a warning.
+fn advice(report: &Report, code: WarningCode) -> Option<&'static str> {
+    let drag_known = report
+        .drops
+        .iter()
+        .all(|d| d.model.parameters.drag_per_s2.is_some());
+    let settings = &report.settings;
+    let height_known = settings.height_m.is_some();
+    let ball_known = settings.mass_kg.is_some() && settings.diameter_m.is_some();
+    Some(match code {
+        WarningCode::NoDrop if report.candidate.is_some() => "--labels and --impacts",
+        WarningCode::NoDrop if report.rejected.is_empty() => return None,
+        WarningCode::NoDrop if height_known => "--start and --end",
+        WarningCode::NoDrop => "--height, --start and --end",
+        WarningCode::StrayTime => "--labels and --impacts",
+        WarningCode::AirDrag if drag_known => return None,
+        WarningCode::LeftOut => "--start and --end",
+        WarningCode::BeyondBounces => "--mass and --diameter, --contact-time",
+        WarningCode::AirDrag | WarningCode::ModelsAlike => "--mass and --diameter",
+        WarningCode::FewBounces if !height_known => "--height",
+        WarningCode::FewBounces if !ball_known => "--mass and --diameter",
+        WarningCode::ContactTooLong => "--contact-time",
+        WarningCode::FirstImpactMissing
+        | WarningCode::HeightTooSmall
+        | WarningCode::WrongHeight
+        | WarningCode::NoRoot
+        | WarningCode::EstimatesDisagree => "--height",
+        WarningCode::LouderBefore => "--impacts, --start",
+        _ => return None,
     })
 }
 

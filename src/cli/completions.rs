@@ -6,7 +6,7 @@ use clap_complete::{Shell, generate};
 use super::Outcome;
 use crate::Error;
 
-/// Print what a shell needs to complete commands, options and their values.
+/// Print what a shell needs to complete commands and options.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   bounce-audio completions bash > ~/.local/share/bash-completion/completions/bounce-audio
@@ -23,5 +23,5 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let mut script = Vec::new();
     generate(arguments.shell, &mut command, "bounce-audio", &mut script);
     let output = String::from_utf8(script).map_err(std::io::Error::other)?;
-    Ok(Outcome { output, status: 0 })
+    Ok(Outcome::of(output))
 }

@@ -21,7 +21,9 @@ use crate::fit::model_selection::Choice;
 use crate::timing::Timing;
 use crate::units::real;
 
-/// Measure the analyzer on recordings with known truth: error and speed of every way of timing and every model.
+/// Measure the analyzer on recordings with known truth.
+///
+/// Error and speed of every way of timing and every model.
 ///
 /// Each WAV needs a .truth.json of synth beside it, or an Audacity label track NAME.txt with every impact that can be
 /// heard. Exit status: 0 done, 1 a threshold of --check is missed, 2 it could not be done.
@@ -109,8 +111,8 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         output.extend(complaints.iter().map(|c| format!("missed: {c}\n")));
     }
     Ok(Outcome {
-        output,
         status: u8::from(!complaints.is_empty()),
+        ..Outcome::of(output)
     })
 }
 

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{output, time};
+use super::output;
+use super::quantity::time;
 use crate::Error;
 use crate::report::Report;
 use crate::report::labels::{Form, Marked, drops, read, to_labels};

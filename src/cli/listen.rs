@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::Args;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
-use super::{acceleration, length, mass, time};
+use super::quantity::{acceleration, contact_time, diameter, height, length_error, mass, time};
 use crate::Error;
 use crate::analysis::Settings;
 use crate::audio::Stream;
@@ -18,19 +18,19 @@ use crate::timing::Timing;
 #[derive(Debug, Clone, Args)]
 pub(super) struct Listening {
     /// Height of release, from the ball's lowest point to the surface: 30.5cm, 12in, 0.305
-    #[arg(long, value_parser = length, allow_hyphen_values = true)]
+    #[arg(long, value_parser = height, allow_hyphen_values = true)]
     pub height: Option<f64>,
     /// Standard error of the height
-    #[arg(long, value_parser = length, default_value = "1mm", allow_hyphen_values = true)]
+    #[arg(long, value_parser = length_error, default_value = "1mm", allow_hyphen_values = true)]
     height_error: f64,
     /// Mass of the ball: 2.5g, 0.6kg; with --diameter the drag of the air is known, with a contact time k and c
     #[arg(long, value_parser = mass, allow_hyphen_values = true)]
     pub mass: Option<f64>,
     /// Diameter of the ball: 38mm
-    #[arg(long, value_parser = length, allow_hyphen_values = true)]
+    #[arg(long, value_parser = diameter, allow_hyphen_values = true)]
     pub diameter: Option<f64>,
     /// Time in contact at each impact, if known: 1ms
-    #[arg(long, value_parser = time, allow_hyphen_values = true)]
+    #[arg(long, value_parser = contact_time, allow_hyphen_values = true)]
     contact_time: Option<f64>,
     /// Model of the intervals: constant e, and what is added to it
     #[arg(long, default_value = "auto", value_parser = one_of(&MODELS))]
@@ -47,7 +47,7 @@ pub(super) struct Listening {
         allow_hyphen_values = true
     )]
     channel: Channel,
-    /// Listen from here: 2s, 1.5, 2min
+    /// Listen from here: 2s, 1.5, 2min, 1:30
     #[arg(long, value_parser = time, allow_hyphen_values = true)]
     start: Option<f64>,
     /// Listen up to here

@@ -4,37 +4,64 @@ mod analyze;
 mod batch;
 mod completions;
 mod evaluate;
+mod failure;
 mod labels;
 mod limit;
 mod listen;
+mod meant;
 mod output;
 mod picture;
+mod quantity;
 mod rule;
 mod solve;
 mod synth;
+mod terminal;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::Error;
-use crate::units::Quantity;
 
-/// Listens to a recording of a ball bouncing and says when it hit, how often, and its coefficient of restitution.
+/// What `--version` says of the feature for this package's own tests.
+#[cfg(feature = "internals")]
+macro_rules! internals {
+    () => {
+        ", internals"
+    };
+}
+#[cfg(not(feature = "internals"))]
+macro_rules! internals {
+    () => {
+        ""
+    };
+}
+
+/// What `--version` says; `-V` says its first line.
+const LONG_VERSION: &str = concat!(
+    env!("CARGO_PKG_VERSION"),
+    "\nreads     WAV, FLAC, ALAC, AAC, MP3, Ogg Vorbis",
+    "\nfeatures  audio, plots, lab, cli",
+    internals!(),
+);
+
+/// Listens to a ball bouncing: impact times, coefficient of restitution, and how sure that is.
 #[derive(Debug, Parser)]
 #[command(
     name = "bounce-audio",
     version,
+    long_version = LONG_VERSION,
     about,
-    max_term_width = 100,
     after_help = "Examples:
-  bounce-audio analyze drop.wav                       what a recording says of the ball
-  bounce-audio analyze drop.wav --height 30.5cm       the same, knowing from where it fell
-  bounce-audio synth --preset pingpong -o drop.wav    a recording to try it with
+  bounce-audio analyze drop.wav                   what a recording says of the ball
+  bounce-audio analyze drop.wav --height 30.5cm   the same, with the height known
+  bounce-audio batch recordings                   a table of many recordings
+  bounce-audio synth --preset pingpong -o a.wav   a recording to try it with
   bounce-audio solve --bounces 70 --total-time 7.5s --height 30.5cm --mass 2.5g
 
-Results go to standard output, everything else to standard error. Help and errors have colours on a
-terminal only, and none where NO_COLOR is set."
+Results go to standard output, everything else to standard error. Help and
+errors have colours on a terminal only, and none where NO_COLOR is set."
 )]
 struct Arguments {
     #[command(subcommand)]
@@ -56,6 +83,8 @@ enum Command {
 pub struct Outcome {
     /// For standard output.
     pub output: String,
+    /// For standard error.
+    pub note: String,
     /// 0: done; 1: it ran, but there was nothing to find.
     pub status: u8,
 }
@@ -65,36 +94,54 @@ pub struct Outcome {
 /// # Errors
 /// Whatever kept the command from doing what was asked; the exit status is then 2.
 pub fn run() -> Result<Outcome, Error> {
-    match Arguments::parse().command {
-        Command::Analyze(arguments) => analyze::run(&arguments),
-        Command::Batch(arguments) => batch::run(&arguments),
-        Command::Solve(arguments) => solve::run(&arguments),
-        Command::Synth(arguments) => synth::run(&arguments),
-        Command::Evaluate(arguments) => evaluate::run(&arguments),
-        Command::Completions(arguments) => completions::run(&arguments),
+    let given: Vec<OsString> = std::env::args_os().collect();
+    let json = failure::wants_json(&given);
+    let outcome = match parsed(&given) {
+        Ok(arguments) => arguments.command.run(),
+        Err(error) => match meant::meant(&given) {
+            Some(offer) if error.use_stderr() => Err(Error::refused(offer)),
+            _ if json && error.use_stderr() => return Ok(failure::of_arguments(&error)),
+            _ => error.exit(),
+        },
+    };
+    match outcome {
+        Err(error) if json => Ok(failure::in_json(&error)),
+        outcome => outcome,
+    }
+}
+
+fn parsed(given: &[OsString]) -> Result<Arguments, clap::Error> {
+    let command = Arguments::command().term_width(terminal::help_width());
+    let matches = command.try_get_matches_from(given)?;
+    Arguments::from_arg_matches(&matches)
+}
+
+impl Command {
+    fn run(&self) -> Result<Outcome, Error> {
+        match self {
+            Self::Analyze(arguments) => analyze::run(arguments),
+            Self::Batch(arguments) => batch::run(arguments),
+            Self::Solve(arguments) => solve::run(arguments),
+            Self::Synth(arguments) => synth::run(arguments),
+            Self::Evaluate(arguments) => evaluate::run(arguments),
+            Self::Completions(arguments) => completions::run(arguments),
+        }
     }
 }
 
 impl Outcome {
+    /// A result without more to say.
+    const fn of(output: String) -> Self {
+        Self {
+            output,
+            note: String::new(),
+            status: 0,
+        }
+    }
+
     /// The status for the system.
     #[must_use]
     pub fn code(&self) -> ExitCode {
         ExitCode::from(self.status)
     }
-}
-
-fn length(text: &str) -> Result<f64, Error> {
-    Quantity::Length.parse("length", text)
-}
-
-fn time(text: &str) -> Result<f64, Error> {
-    Quantity::Time.parse("time", text)
-}
-
-fn mass(text: &str) -> Result<f64, Error> {
-    Quantity::Mass.parse("mass", text)
-}
-
-fn acceleration(text: &str) -> Result<f64, Error> {
-    Quantity::Acceleration.parse("acceleration", text)
 }

@@ -5,13 +5,16 @@ use std::path::PathBuf;
 
 use clap::{ArgGroup, Args, ValueEnum};
 
+use super::Outcome;
 use super::picture::Target;
-use super::{Outcome, acceleration, length, mass, time};
+use super::quantity::{acceleration, contact_time, height, length_error, mass, share, time};
 use crate::Error;
 use crate::picture::total_time::{Point, figure};
 use crate::solve::{self, ContactInputs, GivenErrors, Surroundings, TotalTimeInputs, text};
 
-/// Find the ball (restitution, contact time, stiffness, damping) from numbers instead of a recording.
+/// Find the ball from numbers instead of a recording.
+///
+/// Its restitution, contact time, stiffness and damping.
 ///
 /// Two ways lead to it. From a whole drop: --bounces, --total-time and --height. From one bounce: --restitution and
 /// --contact-time. With --mass there are stiffness and damping, without it both divided by the mass.
@@ -51,18 +54,19 @@ pub(super) struct Arguments {
     )]
     total_time: Option<f64>,
     /// Height of release, from the ball's lowest point to the surface: 30.5cm, 12in, 0.305
-    #[arg(long, value_name = "LENGTH", value_parser = length, allow_hyphen_values = true)]
+    #[arg(long, value_name = "LENGTH", value_parser = height, allow_hyphen_values = true)]
     height: Option<f64>,
-    /// Coefficient of restitution, between 0 and 1
+    /// Coefficient of restitution, between 0 and 1: 0.93, 93%
     #[arg(
         long,
         value_name = "E",
+        value_parser = share,
         requires = "contact_time",
         allow_hyphen_values = true
     )]
     restitution: Option<f64>,
     /// Contact time of one bounce: 1ms
-    #[arg(long, value_name = "TIME", value_parser = time, allow_hyphen_values = true)]
+    #[arg(long, value_name = "TIME", value_parser = contact_time, allow_hyphen_values = true)]
     contact_time: Option<f64>,
     /// Mass of the ball: 2.5g, 0.1oz
     #[arg(long, value_name = "MASS", value_parser = mass, allow_hyphen_values = true)]
@@ -108,7 +112,7 @@ struct ErrorArguments {
     #[arg(
         long,
         value_name = "LENGTH",
-        value_parser = length,
+        value_parser = length_error,
         requires = "bounces",
         conflicts_with = "restitution",
         allow_hyphen_values = true
@@ -146,6 +150,7 @@ struct ErrorArguments {
     #[arg(
         long,
         value_name = "E",
+        value_parser = share,
         requires = "restitution",
         conflicts_with = "bounces",
         allow_hyphen_values = true
@@ -164,7 +169,7 @@ enum Format {
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let target = arguments.plot.as_deref().map(Target::new).transpose()?;
     let output = solution(arguments, target.as_ref()).map_err(by_option)?;
-    Ok(Outcome { output, status: 0 })
+    Ok(Outcome::of(output))
 }
 
 fn solution(arguments: &Arguments, target: Option<&Target>) -> Result<String, Error> {

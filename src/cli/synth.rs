@@ -16,7 +16,9 @@ use crate::synth::scene::Scene;
 use crate::synth::{Synthetic, render};
 use crate::units::real;
 
-/// Make a recording of a bouncing ball from the model, and a .truth.json with its true impact times.
+/// Make a recording of a bouncing ball, with its true impact times.
+///
+/// Beside NAME.wav, NAME.truth.json holds the truth.
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   bounce-audio synth --list
@@ -64,7 +66,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     } else {
         make_one(arguments)?
     };
-    Ok(Outcome { output, status: 0 })
+    Ok(Outcome::of(output))
 }
 
 fn list() -> Result<String, Error> {

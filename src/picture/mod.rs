@@ -12,7 +12,9 @@ pub mod sheet;
 pub mod sound;
 pub mod total_time;
 
-pub use crate::plot::{Figure, to_png, to_svg};
+#[cfg(not(target_arch = "wasm32"))]
+pub use crate::plot::to_png;
+pub use crate::plot::{Figure, to_svg};
 
 /// The ends of an axis that holds values with room on both sides; about a single value, or none, it still has extent.
 fn around(values: impl IntoIterator<Item = f64>, room: f64) -> (f64, f64) {

@@ -31,6 +31,8 @@ pub(super) fn figure<DB: DrawingBackend>(
     area: &Area<DB>,
     scale: u32,
 ) -> Result<(), Error> {
+    // A bitmap and the legend in a corner draw and measure by `plotters`.
+    #[cfg(not(target_arch = "wasm32"))]
     style::register()?;
     area.fill(&WHITE).map_err(|e| problem(&e))?;
     let pen = Pen {
@@ -116,7 +118,7 @@ impl Pen {
     ) -> Result<(), Error> {
         panel.x.check()?;
         panel.y.check()?;
-        let above = panel.heading.is_some() || panel.legend == Corner::Above;
+        let above = panel.heading.is_some() || panel.legend() == Corner::Above;
         let height = if above { self.px(HEADING_PX) } else { 0 };
         let (head, area) = area.split_vertically(height);
         if above {
@@ -244,7 +246,7 @@ impl Pen {
         if !panel.layers.iter().any(|layer| layer.name().is_some()) {
             return Ok(());
         }
-        let position = match panel.legend {
+        let position = match panel.legend() {
             Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
             Corner::UpperRight => SeriesLabelPosition::UpperRight,
             Corner::LowerLeft => SeriesLabelPosition::LowerLeft,

@@ -29,7 +29,7 @@ impl Pen {
         let mut end = right;
         let entries = panel.layers.iter().rev();
         let entries = entries.filter_map(|layer| Some((layer, layer.name()?)));
-        for (layer, name) in entries.filter(|_| panel.legend == Corner::Above) {
+        for (layer, name) in entries.filter(|_| panel.legend() == Corner::Above) {
             let start = end - width(area, name, &style(Colour::BLACK))?;
             let text = (start, middle);
             area.draw_text(name, &style(Colour::BLACK), text)

@@ -12,6 +12,8 @@
 //! ```
 
 mod axis;
+// Glyphs are drawn by `plotters`, which can do so everywhere but in a browser.
+#[cfg(not(target_arch = "wasm32"))]
 mod bitmap;
 mod clip;
 mod draw;
@@ -20,16 +22,14 @@ mod labels;
 mod layers;
 mod marks;
 mod style;
+mod vector;
 
 pub use axis::Axis;
+#[cfg(not(target_arch = "wasm32"))]
 pub use bitmap::to_png;
 pub use layers::{Band, Curve, Dots, Layer, Note, Shape, Side, Stroke};
 pub use style::Colour;
-
-use plotters::backend::SVGBackend;
-use plotters::drawing::IntoDrawingArea;
-
-use crate::Error;
+pub use vector::to_svg;
 
 /// A picture of panels in rows.
 #[derive(Debug, Clone, PartialEq)]
@@ -123,6 +123,17 @@ impl Panel {
     }
 }
 
+impl Panel {
+    /// Where the legend is drawn: in a browser always above, since `plotters` measures those in a corner itself.
+    const fn legend(&self) -> Corner {
+        if cfg!(target_arch = "wasm32") {
+            Corner::Above
+        } else {
+            self.legend
+        }
+    }
+}
+
 /// Where a legend stands: in a corner of its panel or above it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Corner {
@@ -136,27 +147,4 @@ pub enum Corner {
     LowerRight,
     /// In one line above the panel, where it covers nothing.
     Above,
-}
-
-/// The SVG is drawn this much larger and shown smaller: its coordinates are whole numbers, on which a curve of the final
-/// size would show steps.
-const FINENESS: u32 = 8;
-
-/// The figure as an SVG document.
-///
-/// # Errors
-/// [`Error::Plot`] where an axis has no extent or the drawing fails.
-pub fn to_svg(figure: &Figure) -> Result<String, Error> {
-    let size = figure.size;
-    let (width, height) = (size.0 * FINENESS, size.1 * FINENESS);
-    let mut document = String::new();
-    {
-        let area = SVGBackend::with_string(&mut document, (width, height)).into_drawing_area();
-        draw::figure(figure, &area, FINENESS)?;
-        area.present().map_err(|e| draw::problem(&e))?;
-    }
-    // The view box keeps the fine coordinates; only the size that it is shown at changes.
-    let drawn = format!("width=\"{width}\" height=\"{height}\"");
-    let shown = format!("width=\"{}\" height=\"{}\"", size.0, size.1);
-    Ok(document.replacen(&drawn, &shown, 1))
 }

@@ -1,9 +1,13 @@
 //! The look of every picture: font, colours, sizes.
 
+#[cfg(not(target_arch = "wasm32"))]
 use std::sync::OnceLock;
 
-use plotters::style::{FontStyle, RGBColor, register_font};
+use plotters::style::RGBColor;
+#[cfg(not(target_arch = "wasm32"))]
+use plotters::style::{FontStyle, register_font};
 
+#[cfg(not(target_arch = "wasm32"))]
 use crate::Error;
 
 /// A colour that is told from the others by everyone, on white: after Okabe and Ito, the light ones darkened so that
@@ -56,12 +60,17 @@ pub(super) const CROSS_PX: u32 = 5;
 /// Opacity of areas.
 pub(super) const PALE: f64 = 0.35;
 
+/// The bundled font.
+pub(super) const FONT_FILE: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-subset.ttf");
+
+#[cfg(not(target_arch = "wasm32"))]
 static REGISTERED: OnceLock<bool> = OnceLock::new();
 
 /// Makes the bundled font known to `plotters`, once.
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) fn register() -> Result<(), Error> {
-    let bytes = include_bytes!("../../assets/fonts/DejaVuSans-subset.ttf");
-    let known = REGISTERED.get_or_init(|| register_font(FONT, FontStyle::Normal, bytes).is_ok());
+    let known =
+        REGISTERED.get_or_init(|| register_font(FONT, FontStyle::Normal, FONT_FILE).is_ok());
     if *known {
         Ok(())
     } else {

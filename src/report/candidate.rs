@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::Impact;
+use super::numbers::odds;
 use crate::words::words;
 
 /// Sounds that may be the impacts of a drop, but with too little evidence to call them one.
@@ -47,17 +48,17 @@ impl Candidate {
         } else {
             "have flights that shrink as those of a bouncing ball do"
         };
-        let (nats, needed) = (self.evidence_nats, self.needed_nats);
         let lack = match self.lack {
             Lack::Evidence => format!(
-                "their evidence is {nats:.1} nats, {:.1} short of the {needed:.0} that chance rarely reaches",
-                needed - nats
+                "the odds that they are a drop and not chance are {}, and {} are needed",
+                odds(self.evidence_nats),
+                odds(self.needed_nats)
             ),
             Lack::Lead => "others fit nearly as well".to_owned(),
         };
         format!(
-            "{count} sounds from {first:.3} to {last:.3} s {flights}, but {lack}. If they are the impacts, --labels writes \
-             them and --impacts fits them"
+            "{count} sounds from {first:.3} to {last:.3} s {flights}, but {lack}. If they are the impacts, write \
+             them as labels and have those fitted"
         )
     }
 }

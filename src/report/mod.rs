@@ -28,7 +28,7 @@ pub use estimates::{Estimates, Method, Restitution, Scatter};
 pub use impact::{Bounce, Impact};
 pub use irregular::{Irregular, Kind as IrregularKind};
 pub use model::{Given, Model, Parameters};
-pub(crate) use numbers::{decimals, with_error};
+pub(crate) use numbers::{counted, decimals, listed, short, with_error};
 pub use rejected::{RejectReason, Rejected};
 pub use settings::Settings;
 pub(crate) use text::model_name;
@@ -102,7 +102,8 @@ impl Report {
     }
 
     /// Why there is no drop, in a sentence.
-    fn why_none(&self) -> &str {
+    #[must_use]
+    pub(crate) fn why_none(&self) -> &str {
         let reason = self.warnings.first();
         reason.map_or("no drop found", |warning| &warning.message)
     }

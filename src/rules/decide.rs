@@ -74,7 +74,7 @@ fn by_budget(drop: &Drop, shrink: f64) -> String {
     } else if budget.timing >= greatest {
         "times as much more exact, by a nearer microphone or a quieter room".to_owned()
     } else if budget.inputs >= greatest {
-        "--mass, --diameter and --contact-time as measured".to_owned()
+        "mass, diameter and contact time as measured".to_owned()
     } else {
         "a longer or clearer recording, which tells the models apart".to_owned()
     }

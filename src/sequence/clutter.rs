@@ -1,5 +1,7 @@
 //! How often chance offers an event as strong as another: what a match is worth.
 
+use std::cell::OnceCell;
+
 use super::Event;
 use super::marks::{KERNEL_REACH, LOUDNESS_AT_LARGE, LOUDNESS_OF_ANOTHER, loudness_kernel};
 use crate::units::real;
@@ -18,7 +20,7 @@ const LEAST_SPAN_S: f64 = 0.25;
 /// Of the events of the whole recording this many are compared with one, evenly spread over their strengths.
 const COMPARED: usize = 128;
 
-/// The events of a recording, by time and by strength.
+/// The events of a recording, by time and by loudness, and how many lie around each: found when it is first asked for.
 #[derive(Debug)]
 pub struct Clutter<'a> {
     /// In order of time.
@@ -26,6 +28,14 @@ pub struct Clutter<'a> {
     /// Their indices by loudness, ascending.
     by_loudness: Vec<usize>,
     duration_s: f64,
+    around: Vec<OnceCell<Around>>,
+}
+
+/// How many events lie around one, each by how like its loudness is: in either surroundings, and in the whole recording.
+#[derive(Debug, Clone, Copy, Default)]
+struct Around {
+    near: [f64; 2],
+    at_large: f64,
 }
 
 impl<'a> Clutter<'a> {
@@ -40,6 +50,7 @@ impl<'a> Clutter<'a> {
             events,
             by_loudness,
             duration_s,
+            around: vec![OnceCell::new(); events.len()],
         }
     }
 
@@ -49,6 +60,43 @@ impl<'a> Clutter<'a> {
         self.duration_s.max(1.0)
     }
 
+    /// What lies around an event, itself not counted.
+    fn around(&self, event: usize) -> Around {
+        *self.around[event].get_or_init(|| Around {
+            near: NEAR_S.map(|near_s| self.near(event, near_s)),
+            at_large: self.at_large(event),
+        })
+    }
+
+    fn near(&self, event: usize, near_s: f64) -> f64 {
+        let this = &self.events[event];
+        let (from_s, to_s) = (this.time_s - near_s, this.time_s + near_s);
+        let first = self.events.partition_point(|e| e.time_s < from_s);
+        let last = self.events.partition_point(|e| e.time_s <= to_s);
+        let others = (first..last).filter(|&i| i != event);
+        others.map(|i| loudness_kernel(&self.events[i], this)).sum()
+    }
+
+    /// How many seconds lie within so many of an event.
+    fn span_s(&self, event: usize, near_s: f64) -> f64 {
+        let time_s = self.events[event].time_s;
+        let (from_s, to_s) = (time_s - near_s, time_s + near_s);
+        let begin_s = self.events.first().map_or(from_s, |e| e.time_s.max(from_s));
+        let end_s = self.events.last().map_or(to_s, |e| e.time_s.min(to_s));
+        (end_s - begin_s).max(LEAST_SPAN_S.min(near_s))
+    }
+
+    fn at_large(&self, event: usize) -> f64 {
+        let this = &self.events[event];
+        let range = self.place_of(this.loudness - KERNEL_REACH)
+            ..self.place_of(this.loudness + KERNEL_REACH);
+        let step = range.len().div_ceil(COMPARED).max(1);
+        let some = self.by_loudness[range].iter().step_by(step);
+        let others = some.filter(|&&i| i != event);
+        let likeness = others.map(|&i| loudness_kernel(&self.events[i], this));
+        real(step) * likeness.sum::<f64>()
+    }
+
     /// The place of the first event at least as loud among those by loudness.
     fn place_of(&self, loudness: f64) -> usize {
         self.by_loudness
@@ -56,13 +104,13 @@ impl<'a> Clutter<'a> {
     }
 }
 
-/// Rates of clutter at the events of a scene where some events are no clutter, because they belong to a chain; each is
-/// computed when it is first asked for: hypotheses meet at the same events again and again.
+/// Rates of clutter at the events of a scene where some events are no clutter, because they belong to a chain: those are taken
+/// from what lies around. Each is computed when it is first asked for: hypotheses meet at the same events again and again.
 #[derive(Debug)]
 pub struct Rates<'a> {
     clutter: &'a Clutter<'a>,
-    /// Whether an event belongs to a chain.
-    associated: Vec<bool>,
+    /// The events that belong to a chain, in order of time.
+    associated: Vec<usize>,
     known: Vec<Option<Local>>,
     /// Whether the impacts that a chain has yet to show count as its own.
     hopeful: bool,
@@ -95,14 +143,13 @@ impl<'a> Rates<'a> {
     /// The rates at some events among clutter where some of them, by their indices, belong to a chain.
     #[must_use]
     pub fn new(clutter: &'a Clutter<'a>, associated: &[usize]) -> Self {
-        let mut is_associated = vec![false; clutter.events.len()];
-        for &i in associated {
-            is_associated[i] = true;
-        }
+        let mut associated = associated.to_vec();
+        associated.sort_unstable();
+        associated.dedup();
         Self {
             clutter,
             known: vec![None; clutter.events.len()],
-            associated: is_associated,
+            associated,
             hopeful: false,
         }
     }
@@ -140,49 +187,35 @@ impl<'a> Rates<'a> {
     }
 
     fn local(&self, event: usize) -> Local {
+        let clutter = self.clutter;
+        let around = clutter.around(event);
+        let own = self.own_around(event);
+        let near = |k: usize| {
+            let left = (around.near[k] - own.near[k]).max(0.0);
+            (left, clutter.span_s(event, NEAR_S[k]))
+        };
+        let at_large = (around.at_large - own.at_large).max(0.0);
         Local {
-            near: NEAR_S.map(|near_s| self.near(event, near_s)),
-            mean_per_s: self.at_large(event) / self.clutter.duration_s()
-                + KNOCKS_PER_S * LOUDNESS_AT_LARGE,
+            near: [near(0), near(1)],
+            mean_per_s: at_large / clutter.duration_s() + KNOCKS_PER_S * LOUDNESS_AT_LARGE,
         }
     }
 
-    /// Clutter within so many seconds of an event, each by how like its loudness is, and how many seconds that are.
-    fn near(&self, event: usize, near_s: f64) -> (f64, f64) {
+    /// What the chain has around an event.
+    fn own_around(&self, event: usize) -> Around {
         let events = self.clutter.events;
         let this = &events[event];
-        let (from_s, to_s) = (this.time_s - near_s, this.time_s + near_s);
-        let first = events.partition_point(|e| e.time_s < from_s);
-        let last = events.partition_point(|e| e.time_s <= to_s);
-        let near = (first..last).filter(|&i| self.counts(i, event));
-        let begin_s = events.first().map_or(from_s, |e| e.time_s.max(from_s));
-        let end_s = events.last().map_or(to_s, |e| e.time_s.min(to_s));
-        let sum = near.map(|i| loudness_kernel(&events[i], this)).sum();
-        (sum, (end_s - begin_s).max(LEAST_SPAN_S.min(near_s)))
-    }
-
-    /// Whether an event is clutter to another.
-    fn counts(&self, other: usize, event: usize) -> bool {
-        other != event && !self.associated[other]
-    }
-
-    /// Clutter of the whole recording, each by how like its loudness is.
-    fn at_large(&self, event: usize) -> f64 {
-        let Clutter {
-            events,
-            by_loudness,
-            ..
-        } = self.clutter;
-        let this = &events[event];
-        let range = self.clutter.place_of(this.loudness - KERNEL_REACH)
-            ..self.clutter.place_of(this.loudness + KERNEL_REACH);
-        let step = range.len().div_ceil(COMPARED).max(1);
-        let some = by_loudness[range].iter().step_by(step);
-        let some = some.filter(|&&i| self.counts(i, event));
-        real(step)
-            * some
-                .map(|&i| loudness_kernel(&events[i], this))
-                .sum::<f64>()
+        let mut own = Around::default();
+        for &i in self.associated.iter().filter(|&&i| i != event) {
+            let like = loudness_kernel(&events[i], this);
+            own.at_large += like;
+            for (sum, near_s) in own.near.iter_mut().zip(NEAR_S) {
+                if (events[i].time_s - this.time_s).abs() <= near_s {
+                    *sum += like;
+                }
+            }
+        }
+        own
     }
 }
 

@@ -36,13 +36,38 @@ words! {
 const BEFORE_S: f64 = 3e-3;
 const AFTER_S: f64 = 5e-3;
 
-/// The impacts of a drop where they are, and the sound that they have in common.
+/// The impacts of a drop about where they are, and the sound that they have in common.
 #[derive(Debug, Clone)]
-pub struct Refined {
-    /// All impacts, those heard with their times, those inferred as they were.
+pub struct Sketch {
+    /// The impacts, those heard to a fraction of a millisecond.
     pub impacts: Vec<Impact>,
-    /// The template that all were timed by; none where each was timed by itself.
-    pub template: Option<Template>,
+    /// Their template.
+    pub template: Template,
+}
+
+/// What more impacts of a drop can be found by: `impacts` are as [`refine`] takes them. None where fewer than three are heard.
+#[must_use]
+pub fn sketch(sound: &Whitened<'_>, impacts: &[Impact]) -> Option<Sketch> {
+    let (timed, template) = joint::sketch(sound, &heard(impacts))?;
+    Some(Sketch {
+        impacts: with_inferred(impacts, timed),
+        template,
+    })
+}
+
+fn heard(impacts: &[Impact]) -> Vec<Impact> {
+    let heard = impacts.iter().copied().filter(Impact::is_heard);
+    heard.collect()
+}
+
+/// All impacts, those heard as they are timed.
+fn with_inferred(impacts: &[Impact], timed: Vec<Impact>) -> Vec<Impact> {
+    let mut timed = timed.into_iter();
+    let impacts = impacts.iter().map(|&impact| {
+        let timed = impact.is_heard().then(|| timed.next());
+        timed.flatten().unwrap_or(impact)
+    });
+    impacts.collect()
 }
 
 /// Times the heard impacts of one drop in its whitened sound: `impacts` are in ascending order, each with how far off its
@@ -51,9 +76,8 @@ pub struct Refined {
 /// Where a method fails on an impact (its window is cut by the end of the recording, or nothing rises in it) the coarse time
 /// stays, with its error.
 #[must_use]
-pub fn refine(sound: &Whitened<'_>, impacts: &[Impact], timing: Timing) -> Refined {
-    let heard = impacts.iter().copied().filter(Impact::is_heard);
-    let heard: Vec<Impact> = heard.collect();
+pub fn refine(sound: &Whitened<'_>, impacts: &[Impact], timing: Timing) -> Vec<Impact> {
+    let heard = heard(impacts);
     let together = match timing {
         Timing::Correlation => joint::times(sound, &heard),
         Timing::Envelope | Timing::Fraction => None,
@@ -63,25 +87,17 @@ pub fn refine(sound: &Whitened<'_>, impacts: &[Impact], timing: Timing) -> Refin
         _ => None,
     };
     // One drop is timed in one way: what its impacts have in common then cancels.
-    let (timed, template) = match (together, pair, timing) {
-        (Some((timed, template)), ..) => (timed, Some(template)),
-        (None, Some(pair), _) => (pair.to_vec(), None),
-        (None, None, Timing::Envelope) => (heard, None),
+    let timed = match (together, pair, timing) {
+        (Some(timed), ..) => timed,
+        (None, Some(pair), _) => pair.to_vec(),
+        (None, None, Timing::Envelope) => heard,
         (None, None, Timing::Fraction | Timing::Correlation) => {
             let each = heard.iter();
             let timed = each.map(|&coarse| by_fraction(sound, coarse).unwrap_or(coarse));
-            (timed.collect(), None)
+            timed.collect()
         }
     };
-    let mut timed = timed.into_iter();
-    let impacts = impacts.iter().map(|&impact| {
-        let timed = impact.is_heard().then(|| timed.next());
-        timed.flatten().unwrap_or(impact)
-    });
-    Refined {
-        impacts: impacts.collect(),
-        template,
-    }
+    with_inferred(impacts, timed)
 }
 
 /// The time of one impact by its own rise.

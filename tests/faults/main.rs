@@ -281,7 +281,7 @@ fn files() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 /// Settings out of range, for a recording that holds a drop.
-const SETTINGS: [&str; 31] = [
+const SETTINGS: [&str; 32] = [
     "--start 5 --end 4",
     "--start -1",
     "--start 1000",
@@ -293,6 +293,7 @@ const SETTINGS: [&str; 31] = [
     "--height -30cm",
     "--height 1e300",
     "--height 30.5kg",
+    "--height 5m",
     "--height 5",
     "--height-error -1mm",
     "--height-error 1e300",
@@ -329,10 +330,11 @@ fn analyze(file: &Path, settings: &str) -> Output {
 fn said(output: &Output, file: &Path) -> String {
     let error = String::from_utf8(output.stderr.clone()).unwrap();
     if output.status.code() == Some(2) {
-        assert!(
-            output.stdout.is_empty(),
-            "a document beside an error: {error}"
-        );
+        let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+        let fields: Vec<&String> = document.as_object().unwrap().keys().collect();
+        assert_eq!(fields, ["error", "file"], "beside {error}");
+        let reason = document["error"].as_str().unwrap();
+        assert!(error.contains(reason), "{reason} is not in {error}");
         let first = error.lines().next().unwrap_or_default();
         return first.replace(&file.display().to_string(), "FILE");
     }
@@ -403,7 +405,7 @@ const INTRODUCTION: &str = "# What goes wrong, and what is then said
 
 Each row is a file or a setting that is made, and given to `bounce-audio analyze FILE --format json`, by
 `tests/faults`, which fails where this table is not what came of it. Status 0: a drop was found; 1: none; 2: it could
-not be read, or an argument is wrong. With status 2 one sentence is on standard error, else the warnings of the document
+not be read, or an argument is wrong. With status 2 one sentence is on standard error and in JSON, else the warnings of the document
 are given.
 
 ## Files

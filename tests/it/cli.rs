@@ -27,18 +27,28 @@ fn text_answers_first() {
     let output = run(&["analyze", &file]);
     assert_eq!(output.status.code(), Some(0));
     let lines: Vec<String> = text(&output.stdout).lines().map(str::to_owned).collect();
+    let answer = lines[0].strip_prefix(&format!("{file}: e = 0.")).unwrap();
     assert!(
-        lines[0].ends_with("one drop") && lines[2].starts_with("  e        0."),
+        answer.contains(" ± 0.00")
+            && answer.contains(" (4")
+            && answer.ends_with(" bounces in 3.1 s)"),
         "{lines:?}"
     );
-    assert!(lines[3].starts_with("  bounces  4"), "{lines:?}");
+    assert!(
+        lines[1].starts_with("  range    e is between 0.8"),
+        "{lines:?}"
+    );
+    assert!(lines.len() <= 12, "{lines:?}");
     assert!(output.stderr.is_empty());
 }
 
 #[test]
 fn text_fits_a_terminal_and_ends_with_one_line_feed() {
     let file = recording(&folder("width"), "pingpong");
-    let named = text(&run(&["analyze", &file, "--height", "30.5cm", "--mass", "2.7g"]).stdout);
+    let named = [
+        "analyze", &file, "--height", "30.5cm", "--mass", "2.7g", "--table",
+    ];
+    let named = text(&run(&named).stdout);
     assert!(
         named.contains("\nWarning: ") && named.contains(" N·s/m"),
         "{named}"
@@ -49,8 +59,9 @@ fn text_fits_a_terminal_and_ends_with_one_line_feed() {
     }
     assert_eq!(named.trim_end().len() + 1, named.len());
     // Times of a clean recording are exact to hundredths of a microsecond, and say so.
+    let table = named.split("Models compared").next().unwrap();
     assert!(
-        named.contains(" 0.01") && !named.contains("     0.0 "),
+        table.contains(" 0.01") && !table.contains("     0.0 "),
         "{named}"
     );
 }
@@ -59,7 +70,7 @@ fn text_fits_a_terminal_and_ends_with_one_line_feed() {
 fn a_contact_time_that_is_given_is_said_to_be() {
     let file = recording(&folder("given"), "steel");
     let arguments = ["analyze", file.as_str(), "--contact-time", "0.08ms"];
-    let said = text(&run(&arguments).stdout);
+    let said = text(&run(&[&arguments[..], &["--table"]].concat()).stdout);
     assert!(
         said.contains("constant e, with the contact time given"),
         "{said}"
@@ -149,6 +160,64 @@ fn csv_has_a_row_per_impact() {
         drop["impacts"][0]["time_s"].as_f64()
     );
     assert!(rows.iter().all(|r| r.len() == rows[0].len()), "{output}");
+}
+
+#[test]
+fn without_a_drop_rows_are_missing_for_a_reason() {
+    let file = recording(&folder("no-rows"), "noise");
+    for (arguments, rows) in [(&["--format", "csv"][..], 1), (&["-q"], 0)] {
+        let output = run(&[&["analyze", file.as_str()], arguments].concat());
+        assert_eq!(output.status.code(), Some(1));
+        assert_eq!(text(&output.stdout).lines().count(), rows);
+        let said = text(&output.stderr);
+        assert!(
+            said.contains("no drop: nothing in the recording rises"),
+            "{said}"
+        );
+    }
+}
+
+#[test]
+fn an_error_is_json_where_json_was_asked_for() {
+    for (arguments, error, file) in [
+        (
+            &["analyze", "no.wav"][..],
+            "No such file",
+            Value::from("no.wav"),
+        ),
+        (
+            &["analyze", "no.wav", "--height", "1kg"],
+            "a length such as",
+            Value::Null,
+        ),
+        (
+            &["solve", "--restitution", "2", "--contact-time", "1ms"],
+            "0 < e < 1",
+            Value::Null,
+        ),
+    ] {
+        let output = run(&[arguments, &["--format", "json"]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        let document: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert!(
+            document["error"].as_str().unwrap().contains(error),
+            "{document}"
+        );
+        assert_eq!(document["file"], file);
+        assert!(
+            text(&output.stderr).contains(error),
+            "{}",
+            text(&output.stderr)
+        );
+    }
+}
+
+#[test]
+fn a_mass_in_grams_is_the_decimal_number_that_was_typed() {
+    let file = recording(&folder("grams"), "dead");
+    let document = json(&["analyze", &file, "--mass", "45.9g", "--height", "12 inches"]);
+    assert_eq!(document["settings"]["mass_kg"], 0.0459);
+    assert_eq!(document["settings"]["height_m"], 0.3048);
 }
 
 #[test]
@@ -319,6 +388,12 @@ fn wrong_arguments_name_themselves() {
     for (arguments, expected) in [
         (&["--height", "30.5kg"][..], "30.5cm"),
         (&["--height", "-1"], "height"),
+        (
+            &["--height", "30.5"],
+            "did you mean 30.5cm? If not, write 30.5m",
+        ),
+        (&["--mass", "2.7"], "did you mean 2.7g?"),
+        (&["--height", "30,5cm"], "a decimal point and no comma"),
         (&["--gravity", "0"], "gravity"),
         (&["--start", "5", "--end", "4"], "end is 4"),
         (&["--start", "1000"], "within the recording"),

@@ -146,9 +146,11 @@ fn what_comes_nearest_to_a_drop_is_said_written_as_labels_and_can_be_fitted() {
     );
     let message = document["warnings"][0]["message"].as_str().unwrap();
     assert!(
-        message.contains("short of the 6") && message.contains("--labels"),
+        message.contains(" to 1 are needed") && message.contains("as labels"),
         "{message}"
     );
+    let said = text(&run(&["analyze", &wav, "--height", "1m"]).stdout);
+    assert!(said.contains("(--labels and --impacts)"), "{said}");
     let labels = folder.join("candidate.txt").display().to_string();
     let none = run(&["analyze", &wav, "--height", "1m", "--labels", &labels]);
     assert_eq!(none.status.code(), Some(1));

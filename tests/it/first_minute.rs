@@ -44,6 +44,8 @@ fn every_command_has_examples_in_its_help() {
 #[test]
 fn help_names_the_rules_and_where_they_stand() {
     let help = said(&["analyze", "--help"]);
+    // Lines end where the page does.
+    let help = help.split_whitespace().collect::<Vec<_>>().join(" ");
     for words in [
         "ittf-ball:",
         "240 to 265 mm from 305 mm",
@@ -71,33 +73,89 @@ fn shells_get_their_completions() {
 }
 
 #[test]
-fn quiet_is_the_answer_and_verbose_is_everything() {
+fn the_answer_comes_first_and_the_table_is_for_who_asks() {
     let file = recording("detail", "pingpong");
-    let (quiet, usual, verbose) = (
+    let (quiet, usual, verbose, table) = (
         said(&["analyze", &file, "-q", "--height", "30.5cm"]),
         said(&["analyze", &file, "--height", "30.5cm"]),
         said(&["analyze", &file, "-v", "--height", "30.5cm"]),
+        said(&["analyze", &file, "--table", "--height", "30.5cm"]),
     );
+    assert_eq!(verbose, table);
     let lines = |text: &str| text.lines().map(str::to_owned).collect::<Vec<_>>();
-    for line in lines(&quiet) {
-        assert!(lines(&usual).contains(&line), "{line}");
+    for line in lines(&usual) {
+        assert!(lines(&verbose).contains(&line), "{line}");
     }
-    for (words, in_quiet, in_usual) in [
-        ("  e        0.9", true, true),
-        ("\nWarning: ", true, true),
-        ("flight ratios", false, true),
-        ("Rejected between the impacts", false, true),
-        ("2 times, first at", false, true),
-        ("Models compared", false, false),
+    for (words, in_usual) in [
+        (": e = 0.9", true),
+        ("  odds     over a billion to 1", true),
+        ("m/s", true),
+        ("s from release to rest", true),
+        ("\nWarning: ", true),
+        ("flight ratios", false),
+        ("[ms]", false),
+        ("Rejected between the impacts", false),
+        ("Models compared", false),
     ] {
-        assert_eq!(quiet.contains(words), in_quiet, "{words} in {quiet}");
         assert_eq!(usual.contains(words), in_usual, "{words} in {usual}");
+        assert!(verbose.contains(words), "{words} in {verbose}");
+    }
+    let of_answer = lines(&usual).iter().take_while(|l| !l.is_empty()).count();
+    assert!(of_answer <= 11, "{usual}");
+    // A shell reads e, its error, bounces, seconds, warnings and the file, whatever its name.
+    assert_eq!(lines(&quiet).len(), 1);
+    let cells: Vec<&str> = quiet.trim_end().splitn(6, ' ').collect();
+    let [e, error, bounces, seconds, warnings, named] = cells[..] else {
+        panic!("{quiet}");
+    };
+    assert!((e.parse::<f64>().unwrap() - 0.93).abs() < 0.002, "{quiet}");
+    assert!(error.parse::<f64>().unwrap() < 0.002, "{quiet}");
+    assert!(bounces.parse::<u32>().unwrap() > 60 && seconds.parse::<f64>().unwrap() > 5.0);
+    assert_eq!((warnings, named), ("air_drag", file.as_str()));
+    assert_eq!(run(&["analyze", &file, "-q", "-v"]).status.code(), Some(2));
+}
+
+#[test]
+fn the_command_that_was_meant_is_offered() {
+    let file = recording("meant", "dead");
+    for (arguments, offered) in [
+        (&[file.as_str()][..], "bounce-audio analyze "),
+        (&[&file, &file], "bounce-audio batch "),
+        (&["analyze", &file, &file], "bounce-audio batch "),
+        (&["analyze", "src"], "bounce-audio batch src"),
+    ] {
+        let output = run(arguments);
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0));
         assert!(
-            words == "2 times, first at" || verbose.contains(words),
-            "{words} in {verbose}"
+            said.contains(offered) && said.lines().count() == 1,
+            "{said}"
         );
     }
-    assert_eq!(run(&["analyze", &file, "-q", "-v"]).status.code(), Some(2));
+}
+
+#[test]
+fn the_version_tells_what_is_built_in() {
+    let version = said(&["--version"]);
+    assert!(version.starts_with(concat!("bounce-audio ", env!("CARGO_PKG_VERSION"), "\n")));
+    assert!(version.contains("FLAC") && version.contains("features  audio, plots, lab, cli"));
+    assert_eq!(said(&["-V"]).lines().count(), 1);
+}
+
+#[test]
+fn help_is_no_wider_than_a_page() {
+    for command in [
+        "analyze",
+        "batch",
+        "solve",
+        "synth",
+        "evaluate",
+        "completions",
+    ] {
+        for line in said(&[command, "--help"]).lines() {
+            assert!(line.chars().count() <= 100, "{command}: {line}");
+        }
+    }
 }
 
 #[test]
@@ -167,9 +225,9 @@ fn names(value: &serde_json::Value, found: &mut Vec<String>) {
 }
 
 #[test]
-fn the_readme_names_every_field_of_the_document() {
-    let readme = Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md");
-    let readme = fs::read_to_string(readme).unwrap();
+fn a_document_names_every_field_of_json() {
+    let named = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/json.md");
+    let named = fs::read_to_string(named).unwrap();
     let file = recording("fields", "pingpong");
     let json = said(&[
         "analyze",
@@ -192,6 +250,6 @@ fn the_readme_names_every_field_of_the_document() {
             format!("[].{name}`"),
             format!("[].{name}[]`"),
         ];
-        assert!(told.iter().any(|t| readme.contains(t)), "{name}");
+        assert!(told.iter().any(|t| named.contains(t)), "{name}");
     }
 }

@@ -157,7 +157,7 @@ fn what_cannot_be_used_is_said_in_one_line() {
         ),
         (
             file("few.txt", "1\t1\ta\n2\t2\tinferred\n"),
-            "line 1: the drop that begins here has 1 impacts that were heard, a flight needs 2",
+            "line 1: the drop that begins here has 1 impact heard, a flight needs 2",
         ),
         (file("empty.txt", "\n"), "there are no labels"),
         (

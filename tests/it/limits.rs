@@ -1,10 +1,10 @@
-//! Every limit that README states is met with a sentence that says what was wrong and what is allowed.
+//! Every limit that docs/limits.md states is met with a sentence that says what was wrong and what is allowed.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// What README calls it, a command just beyond it, and what is said.
+/// What docs/limits.md calls it, a command just beyond it, and what is said.
 const LIMITS: [(&str, &str, &str); 24] = [
     (
         "sample rate",
@@ -258,13 +258,13 @@ fn add_scenes(folder: &Path) {
 }
 
 #[test]
-fn every_limit_of_the_readme_is_met_with_a_sentence() {
+fn every_limit_that_is_stated_is_met_with_a_sentence() {
     let folder = folder("limits");
     add_recordings(&folder);
     add_scenes(&folder);
-    let readme = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("README.md"));
-    let readme = readme.unwrap();
-    let stated: Vec<&str> = readme
+    let limits = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/limits.md"));
+    let limits = limits.unwrap();
+    let stated: Vec<&str> = limits
         .split("| what | limit |")
         .nth(1)
         .unwrap()
@@ -277,7 +277,7 @@ fn every_limit_of_the_readme_is_met_with_a_sentence() {
     for (name, line, sentence) in LIMITS {
         assert!(
             stated.contains(&name),
-            "{name} is not in README: {stated:?}"
+            "{name} is not in docs/limits.md: {stated:?}"
         );
         let output = run(&folder, line);
         let said = String::from_utf8_lossy(&output.stderr);

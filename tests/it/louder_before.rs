@@ -28,7 +28,7 @@ fn knocks_before_a_drop_are_named_until_they_are_left_out() {
     let said_of_all = said(&document);
     assert_eq!(said_of_all.len(), 1, "{document}");
     assert!(
-        said_of_all[0].contains("0.600 s") && said_of_all[0].contains("--start 1.60"),
+        said_of_all[0].contains("0.600 s") && said_of_all[0].contains("listen from 1.60 s on"),
         "{}",
         said_of_all[0]
     );

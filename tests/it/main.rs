@@ -33,6 +33,8 @@ mod physics_properties;
 mod physics_uncertainty;
 mod pictures;
 mod plot;
+mod readme;
+mod schema;
 mod solve;
 mod synth;
 mod synthetic;

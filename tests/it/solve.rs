@@ -389,7 +389,7 @@ fn wrong_arguments_name_themselves() {
         ),
         (
             vec!["--restitution", "nan", "--contact-time", "1ms"],
-            "--restitution is NaN",
+            "restitution is 'nan', expected a share such as 0.93",
         ),
         (vec!["--restitution", "0.9", "--contact-time", "1g"], "1ms"),
         (

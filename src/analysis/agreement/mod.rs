@@ -176,15 +176,15 @@ impl Agreement {
             ),
             Cause::Drag => format!(
                 "equation (30) gives {eq30} and the first rebound {first} where the flights give {ratio}: the air \
-                 slows a light ball, which reads as a lower e. Give --mass and --diameter"
+                 slows a light ball, which reads as a lower e. Give the ball's mass and diameter"
             ),
             Cause::HeightTooSmall => format!(
                 "the first rebound gives {first} where the flights give {e}: the ball was dropped from higher than \
-                 --height, or thrown"
+                 the height given, or thrown"
             ),
             Cause::HeightTooLarge => format!(
                 "the first rebound gives {first} where the flights give {e}: the ball was dropped from lower than \
-                 --height. Measure from its lowest point; for a light ball give --mass and --diameter too"
+                 the height given. Measure from its lowest point; for a light ball give mass and diameter too"
             ),
             Cause::Unheard => format!(
                 "equation (25) gives {eq25} where the flights give {ratio}: it has the ball at rest after the {} \
@@ -193,7 +193,7 @@ impl Agreement {
             ),
             Cause::NotKnown => format!(
                 "equations (25) and (30) give {eq25} and {eq30}, more than the flights' {ratio}: drag and unheard \
-                 bounces make them less, so check --height and whether the ball was touched"
+                 bounces make them less, so check the height and whether the ball was touched"
             ),
         }
     }

@@ -81,7 +81,6 @@ pub(super) fn heard(
     let followed = Followed {
         sound: stretch.whitened(&chain),
         chain,
-        timed: None,
     };
     let measured = drop::measure(stretch, followed, channel, settings)?;
     Ok(Some(Heard { found, measured }))

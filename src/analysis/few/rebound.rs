@@ -10,7 +10,9 @@ use crate::impact::Impact;
 use crate::physics::ends::Ends;
 use crate::physics::priors::{CONTACT_RELATIVE_STD, ONE_BOUNCE, UNKNOWN_CONTACT_STD_S};
 use crate::physics::{DRAG_RELATIVE_STD, FlightLaw};
-use crate::report::{self, Bounce, Method, Model, Parameters, Restitution, Warning, WarningCode};
+use crate::report::{
+    self, Bounce, Method, Model, Parameters, Restitution, Warning, WarningCode, counted,
+};
 use crate::statistics::NORMAL95;
 
 /// What few impacts say.
@@ -219,16 +221,16 @@ fn note(timed: &[Impact], answer: &Answer, settings: &Settings) -> Warning {
             "e is that of the first, by the height and the flight after it"
         }
         Some(Method::FirstRebound) => {
-            "e is that of the first, by the height and the flight after it; the air's drag counts as the ball's without --mass \
-             and --diameter"
+            "e is that of the first, by the height and the flight after it; the air's drag counts as the ball's unless \
+             mass and diameter are given"
         }
         Some(_) => {
-            "e is one ratio of flights, and its error that of single bounces of balls at large. --height gives e of the first"
+            "e is one ratio of flights, and its error that of single bounces of balls at large. The height of release would give e of the first"
         }
         None if settings.height_m.is_some() => {
             "their flight does not fit the height, so there is no e"
         }
-        None => "one flight has no ratio, so there is no e. --height gives it",
+        None => "one flight has no ratio, so there is no e. The height of release would give it",
     };
     let doubt = if heard == 2 && timed.iter().all(|i| i.nats.is_finite()) {
         ", which two knocks of one thing may be too"
@@ -237,7 +239,7 @@ fn note(timed: &[Impact], answer: &Answer, settings: &Settings) -> Warning {
     };
     Warning::new(
         WarningCode::FewBounces,
-        format!("only {heard} impacts{doubt}: {rests}"),
+        format!("only {}{doubt}: {rests}", counted(heard, "impact")),
     )
 }
 

@@ -15,7 +15,7 @@ use super::scene::{Bounds, hear};
 use crate::Error;
 use crate::detect::Detector;
 use crate::detect::activity_gate::ActivityGate;
-use crate::report::Analysis;
+use crate::report::{Analysis, Drop};
 use crate::units::{frame_at, frame_time_s, frames, length, real, samples_in};
 use held::Held;
 
@@ -177,6 +177,19 @@ impl Listener {
         Ok(result)
     }
 
+    /// The drops found since this was last asked, while the recording goes on: each once, when the sound around it is over,
+    /// which is 3 s after the last that rises.
+    ///
+    /// [`finish`](Self::finish) gives them again, with all others: a drop of two or three impacts is told by that alone, for
+    /// it counts where there is no other.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a setting out of range.
+    pub fn new_drops(&mut self) -> Result<Vec<Drop>, Error> {
+        let extent = self.extent();
+        self.findings.tell(extent, &self.settings)
+    }
+
     /// The analysis, and the channel that most of it was heard on.
     ///
     /// # Errors
@@ -198,11 +211,16 @@ impl Listener {
             let after = frame_at(AFTER_S, self.sample_rate_hz);
             self.hear(rises.from, end.min(rises.last + after), false)?;
         }
-        let extent = Extent {
-            first_channel: self.first_channel,
-            end_s: frame_time_s(end, self.sample_rate_hz),
-        };
+        let extent = self.extent();
         self.findings.analysis(extent, &self.settings)
+    }
+
+    /// What was listened to so far.
+    fn extent(&self) -> Extent {
+        Extent {
+            first_channel: self.first_channel,
+            end_s: frame_time_s(self.held.end(), self.sample_rate_hz),
+        }
     }
 
     /// Has the gates judge the next frames.

@@ -10,6 +10,7 @@ use super::format::{Format, ReadBack};
 use super::inputs::Input;
 use super::options::{Given, Pattern, Table};
 use super::plots::Plots;
+use super::screen::remarks;
 use crate::Error;
 use crate::cli::listen::{Listening, listen_to_file, name};
 use crate::report::batch::{Digest, Found};
@@ -39,6 +40,8 @@ pub(super) struct Done {
     pub rows: String,
     /// To be remembered for the summary.
     pub digest: Digest,
+    /// What to know about each drop, for the table on a terminal.
+    pub remarks: Vec<String>,
 }
 
 impl Job<'_> {
@@ -53,6 +56,7 @@ impl Job<'_> {
                     file,
                     found: Found::Failed(reason),
                 },
+                remarks: Vec::new(),
             }
         })
     }
@@ -75,6 +79,7 @@ impl Job<'_> {
         Ok(Done {
             rows: self.format.rows(&report)?,
             digest: Digest::from(&report),
+            remarks: remarks(&report),
         })
     }
 

@@ -8,6 +8,7 @@ mod ordered;
 mod plots;
 mod progress;
 mod rows_file;
+mod screen;
 
 use std::collections::HashSet;
 use std::fs::File;
@@ -18,25 +19,29 @@ use std::thread;
 
 use clap::{Args, value_parser};
 
-use super::Outcome;
-use super::listen::Listening;
+use super::listen::{Listening, name};
 use super::output::{followed, place};
 use super::picture::Target as Picture;
+use super::{Outcome, terminal};
 use crate::Error;
 use crate::picture::batch::sheet;
-use crate::report::batch::{Digest, Found, summary};
+use crate::report::batch::{Digest, Found, conclusion, summary};
 use format::{Format, ReadBack};
+use inputs::Input;
 use job::{Job, PerFile};
 use options::{Pattern, Table};
 use plots::Plots;
 use progress::Progress;
 use rows_file::{Resumed, RowsFile, check_is_file, partial};
+use screen::Screen;
 
 /// Analyze many recordings: files, and folders with all that is in them.
 ///
 /// One row per drop, in the order of the files, which are those named and the recordings of each folder by name. A
-/// file without a drop or with an error has one row with the reason. At the end, standard error says e of each file,
-/// their mean, whether they differ by more than their errors claim, and which are far from the rest.
+/// file without a drop or with an error has one row with the reason. At the end stand the mean, whether the drops differ
+/// by more than their errors claim, and which are far from the rest.
+///
+/// A terminal gets a table that fits it; the rows go into a pipe, or into the file of -o.
 ///
 /// Exit status: 0 a drop in every file, 1 some file failed or had none, 2 what was asked could not be done.
 #[derive(Debug, Args)]
@@ -57,9 +62,9 @@ pub(super) struct Arguments {
     /// How many recordings to listen to at once [default: one for each core]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..), allow_hyphen_values = true)]
     jobs: Option<u16>,
-    /// Form of the rows
-    #[arg(long, value_enum, default_value_t = Format::Csv)]
-    format: Format,
+    /// Form of the rows [default: csv; on a terminal without -o a table]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     /// The file to write; until it is whole, rows are in OUT.partial
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
@@ -98,14 +103,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             .transpose()?,
         inputs,
         listening: &arguments.listening,
-        format: arguments.format,
+        format: arguments.format(),
     };
     check_apart(arguments, &job)?;
     job.plots.as_ref().map_or(Ok(()), Plots::make)?;
     if let Some(note) = job.unmatched() {
         say(&note);
     }
-    let (mut target, mut digests) = Target::open(arguments, &job)?;
+    let screen = screen(arguments, &job.inputs);
+    let (mut target, mut digests) = Target::open(arguments, &job, screen.is_some())?;
+    if let Some(screen) = screen {
+        let done = digests.iter().map(|digest| screen.rows(digest, &[]));
+        let _: ControlFlow<()> = print(&(screen.heading() + &done.collect::<String>()))?;
+    }
     let progress = Progress::new(job.inputs.len(), digests.len());
     let done = ordered::in_order(
         threads(arguments, &job),
@@ -116,22 +126,42 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
             done
         },
         |done| {
-            let flow = progress.aside(|| target.add(&done.rows))?;
+            let flow = progress.aside(|| {
+                let flow = target.add(&done.rows)?;
+                match screen.filter(|_| flow.is_continue()) {
+                    Some(screen) => print(&screen.rows(&done.digest, &done.remarks)),
+                    None => Ok(flow),
+                }
+            })?;
             digests.push(done.digest);
             Ok(flow)
         },
     );
     progress.end();
     done.and_then(|()| target.finish())?;
-    say(&summary(&digests));
+    say(&if screen.is_some() {
+        "\n".to_owned() + &conclusion(&digests)
+    } else {
+        summary(&digests)
+    });
     if let Some(plot) = plot {
         plot.draw(&sheet(&plots::rows(&digests)))?;
     }
     let found = |d: &Digest| matches!(d.found, Found::Drops(_));
     Ok(Outcome {
-        output: String::new(),
         status: u8::from(!digests.iter().all(found)),
+        ..Outcome::of(String::new())
     })
+}
+
+/// The table for the terminal on standard output, unless rows were asked for there.
+fn screen(arguments: &Arguments, inputs: &[Input]) -> Option<Screen> {
+    let columns = terminal::output_width()?;
+    if arguments.format.is_some() && arguments.output.is_none() {
+        return None;
+    }
+    let names: Vec<String> = inputs.iter().map(|input| name(input.path())).collect();
+    Some(Screen::new(names.iter().map(String::as_str), columns))
 }
 
 /// Refuses two outputs in one place: the later one would replace the earlier.
@@ -169,9 +199,27 @@ fn say(text: &str) {
     io::stderr().write_all(text.as_bytes()).ok();
 }
 
+/// Writes to standard output, which whoever closed the pipe (`| head`) has read enough of.
+fn print(text: &str) -> Result<ControlFlow<()>, Error> {
+    let mut stdout = io::stdout().lock();
+    let written = stdout.write_all(text.as_bytes());
+    match written.and_then(|()| stdout.flush()) {
+        Err(e) if e.kind() == ErrorKind::BrokenPipe => Ok(ControlFlow::Break(())),
+        written => Ok(written.map(|()| ControlFlow::Continue(()))?),
+    }
+}
+
+impl Arguments {
+    fn format(&self) -> Format {
+        self.format.unwrap_or(Format::Csv)
+    }
+}
+
 /// Where the rows go.
 enum Target {
     Output,
+    /// A terminal has a table in place of them.
+    Nowhere,
     File(RowsFile),
     /// A file that was finished before.
     Finished,
@@ -179,10 +227,17 @@ enum Target {
 
 impl Target {
     /// Makes ready to write, and gives what is there already.
-    fn open(arguments: &Arguments, job: &Job<'_>) -> Result<(Self, Vec<Digest>), Error> {
-        let (force, format) = (arguments.force, arguments.format);
+    fn open(
+        arguments: &Arguments,
+        job: &Job<'_>,
+        on_screen: bool,
+    ) -> Result<(Self, Vec<Digest>), Error> {
+        let (force, format) = (arguments.force, arguments.format());
         // A link stays a link, so the rows go beside what it leads to.
         let Some(path) = arguments.output.as_deref().map(followed) else {
+            if on_screen {
+                return Ok((Self::Nowhere, Vec::new()));
+            }
             let mut output = Self::Output;
             // If nobody reads, the first row says so again.
             output.add(&format.header()).map(|_| ())?;
@@ -214,18 +269,8 @@ impl Target {
     fn add(&mut self, rows: &str) -> Result<ControlFlow<()>, Error> {
         match self {
             Self::File(file) => file.add(rows)?,
-            Self::Finished => {}
-            Self::Output => {
-                let mut stdout = io::stdout().lock();
-                let written = stdout.write_all(rows.as_bytes());
-                match written.and_then(|()| stdout.flush()) {
-                    // Whoever closed the pipe (`| head`) has read enough.
-                    Err(e) if e.kind() == ErrorKind::BrokenPipe => {
-                        return Ok(ControlFlow::Break(()));
-                    }
-                    written => written?,
-                }
-            }
+            Self::Finished | Self::Nowhere => {}
+            Self::Output => return print(rows),
         }
         Ok(ControlFlow::Continue(()))
     }
@@ -233,7 +278,7 @@ impl Target {
     fn finish(self) -> Result<(), Error> {
         match self {
             Self::File(file) => file.finish(),
-            Self::Output | Self::Finished => Ok(()),
+            Self::Output | Self::Nowhere | Self::Finished => Ok(()),
         }
     }
 }

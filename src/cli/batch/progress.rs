@@ -2,7 +2,7 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-/// A line with count, rate and time left on a terminal's standard error; nothing anywhere else.
+/// A line with count and time left on a terminal's standard error; nothing anywhere else.
 #[derive(Debug)]
 pub(super) struct Progress(ProgressBar);
 
@@ -10,7 +10,7 @@ impl Progress {
     /// Of a batch of which some are done already.
     pub(super) fn new(all: usize, done: usize) -> Self {
         let bar = ProgressBar::new(all as u64).with_position(done as u64);
-        let template = "{bar:30} {pos}/{len} recordings, {per_sec}, {eta} left";
+        let template = "{bar:30} {pos} of {len} recordings, {eta} left";
         if let Ok(style) = ProgressStyle::with_template(template) {
             bar.set_style(style);
         }

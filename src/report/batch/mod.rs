@@ -1,6 +1,6 @@
 //! Many recordings in short: a line for each, and the mean of their drops.
 
-use super::numbers::{digits_for, plus_minus};
+use super::numbers::{counted, digits_for, plus_minus};
 use super::wrap::wrapped;
 use super::{Drop, Report};
 use crate::fit::Estimate;
@@ -17,6 +17,15 @@ pub struct Digest {
     pub file: String,
     /// Its result.
     pub found: Found,
+}
+
+impl Digest {
+    /// A recording that could not be analyzed, with the reason.
+    #[must_use]
+    pub const fn failed(file: String, reason: String) -> Self {
+        let found = Found::Failed(reason);
+        Self { file, found }
+    }
 }
 
 /// The result of one recording.
@@ -39,6 +48,25 @@ pub struct DropDigest {
     pub bounces: usize,
     /// e of the selected model.
     pub restitution: Option<Estimate>,
+}
+
+#[cfg(test)]
+impl Digest {
+    /// A recording of this name with this result.
+    pub(crate) const fn new(file: String, found: Found) -> Self {
+        Self { file, found }
+    }
+}
+
+#[cfg(test)]
+impl DropDigest {
+    /// A drop of so many impacts with this e.
+    pub(crate) const fn new(bounces: usize, restitution: Option<Estimate>) -> Self {
+        Self {
+            bounces,
+            restitution,
+        }
+    }
 }
 
 impl From<&Drop> for DropDigest {
@@ -69,18 +97,12 @@ impl From<&Report> for Digest {
 #[must_use]
 pub fn summary(digests: &[Digest]) -> String {
     let mut out = String::new();
-    let mut named: Vec<(String, Measurement)> = Vec::new();
     for digest in digests {
         let file = visible(&digest.file);
         match &digest.found {
             Found::Drops(drops) => {
-                for (i, drop) in drops.iter().enumerate() {
-                    let name = match drops.len() {
-                        1 => file.clone(),
-                        _ => format!("{file} drop {}", i + 1),
-                    };
+                for (name, drop) in named(&file, drops) {
                     out += &line_of("", &name, &one(drop), 4);
-                    named.extend(measurement(drop).map(|m| (name, m)));
                 }
             }
             Found::Nothing(reason) => out += &line_of("", &file, &visible(reason), 4),
@@ -89,7 +111,44 @@ pub fn summary(digests: &[Digest]) -> String {
             }
         }
     }
-    out + "\n" + &counts(digests) + &together(&named)
+    out + "\n" + &conclusion(digests)
+}
+
+/// What all recordings say together, the last part of [`summary`].
+#[must_use]
+pub fn conclusion(digests: &[Digest]) -> String {
+    let mut measured: Vec<(String, Measurement)> = Vec::new();
+    for digest in digests {
+        if let Found::Drops(drops) = &digest.found {
+            let file = visible(&digest.file);
+            let named = named(&file, drops);
+            measured.extend(named.filter_map(|(name, drop)| Some((name, measurement(drop)?))));
+        }
+    }
+    counts(digests) + &together(&measured)
+}
+
+/// Drops with their names: that of the file, and of several in it their number.
+fn named<'a>(
+    file: &'a str,
+    drops: &'a [DropDigest],
+) -> impl Iterator<Item = (String, &'a DropDigest)> {
+    let name = move |i: usize| match drops.len() {
+        1 => file.to_owned(),
+        _ => format!("{file} drop {}", i + 1),
+    };
+    drops
+        .iter()
+        .enumerate()
+        .map(move |(i, drop)| (name(i), drop))
+}
+
+/// What the drops of one recording say together; nothing of fewer than two with an error.
+pub(super) fn together_of(drops: &[Drop]) -> String {
+    let digests = drops.iter().map(DropDigest::from).enumerate();
+    let measured =
+        digests.filter_map(|(i, drop)| Some((format!("drop {}", i + 1), measurement(&drop)?)));
+    together(&measured.collect::<Vec<_>>())
 }
 
 /// The text on a name, in lines no wider than a terminal. The name stays whole, with the spaces in it.
@@ -100,7 +159,7 @@ fn line_of(head: &str, name: &str, told: &str, indent: usize) -> String {
 }
 
 /// A name that stays in its line and leaves the terminal alone.
-fn visible(text: &str) -> String {
+pub(crate) fn visible(text: &str) -> String {
     let escaped = |c: char| {
         if c.is_control() {
             c.escape_default().to_string()
@@ -112,10 +171,7 @@ fn visible(text: &str) -> String {
 }
 
 fn one(drop: &DropDigest) -> String {
-    let bounces = match drop.bounces {
-        1 => "1 bounce".to_owned(),
-        n => format!("{n} bounces"),
-    };
+    let bounces = counted(drop.bounces, "bounce");
     match drop.restitution {
         None => format!("e not determined, {bounces}"),
         Some(Estimate {
@@ -151,8 +207,7 @@ fn counts(digests: &[Digest]) -> String {
             Found::Failed(_) => failed += 1,
         }
     }
-    let plural = |n: usize, one: &str| format!("{n} {one}{}", if n == 1 { "" } else { "s" });
-    let mut line = plural(digests.len(), "recording") + ", " + &plural(drops, "drop");
+    let mut line = counted(digests.len(), "recording") + ", " + &counted(drops, "drop");
     if without > 0 {
         line += &format!("; without a drop: {without}");
     }
@@ -172,7 +227,11 @@ fn together(named: &[(String, Measurement)]) -> String {
     let far = outliers(&measurements);
     for (i, OutlyingMeasurement { index, distance }) in far.iter().enumerate() {
         let (name, (value, std)) = &named[*index];
-        let label = if i == 0 { "outliers" } else { "" };
+        let label = match (i, far.len()) {
+            (0, 1) => "outlier",
+            (0, _) => "outliers",
+            _ => "",
+        };
         let told = format!(
             "e {}, {:.1} standard deviations {} the median",
             plus_minus(*value, *std),
@@ -192,38 +251,55 @@ fn together(named: &[(String, Measurement)]) -> String {
     }
 }
 
+fn degrees(count: usize) -> String {
+    let one = if count == 1 { "degree" } else { "degrees" };
+    format!("{count} {one} of freedom")
+}
+
 fn described(pooled: &RandomEffects) -> String {
-    let judged = if pooled.chance >= RARE {
-        "no more than they claim".to_owned()
-    } else {
-        let digits = digits_for(pooled.between);
-        format!(
-            "more than they claim: ball, height, surface or what was heard makes them differ by {:.digits$} more \
-             (one standard deviation)",
-            pooled.between
-        )
-    };
     let digits = digits_for(pooled.spread.min(pooled.claimed));
     let spread = format!(
         "  spread   {:.digits$} between drops, where their errors claim {:.digits$}",
         pooled.spread, pooled.claimed
     );
+    let judged = format!(
+        "  compare  they differ {} ({})",
+        compared(pooled),
+        figures(pooled)
+    );
+    format!(
+        "  mean e   {} of {}\n{}\n{}\n",
+        plus_minus(pooled.mean, pooled.mean_std),
+        counted(pooled.count, "drop"),
+        wrapped(&spread, 11),
+        wrapped(&judged, 11)
+    )
+}
+
+/// Whether the drops differ by more than their errors, and by how much.
+fn compared(pooled: &RandomEffects) -> String {
+    if pooled.chance >= RARE {
+        return "no more than they claim".to_owned();
+    }
+    let digits = digits_for(pooled.between);
+    format!(
+        "more than they claim: ball, height, surface or what was heard makes them differ by {:.digits$} more, one standard \
+         deviation",
+        pooled.between
+    )
+}
+
+/// What that rests on.
+fn figures(pooled: &RandomEffects) -> String {
     let chance = match pooled.chance {
         rare if rare < 0.001 => "below 0.001".to_owned(),
         chance => format!("{chance:.3}"),
     };
-    let birge = format!(
-        "  Birge    {:.2} (χ² {:.1} for {} degrees of freedom, chance {chance}): the drops differ {judged}",
+    format!(
+        "Birge ratio {:.2}, χ² {:.1} for {}, chance {chance}",
         pooled.birge,
         pooled.chi_square,
-        pooled.count - 1,
-    );
-    format!(
-        "  mean e   {} of {} drops\n{}\n{}\n",
-        plus_minus(pooled.mean, pooled.mean_std),
-        pooled.count,
-        wrapped(&spread, 11),
-        wrapped(&birge, 11)
+        degrees(pooled.count - 1)
     )
 }
 

@@ -27,10 +27,8 @@ fn a_batch_says_each_file_then_the_mean_and_who_is_far() {
         file: "none.wav".to_owned(),
         found: Found::Nothing("only 2 sharp sounds".to_owned()),
     });
-    digests.push(Digest {
-        file: "bad.wav".to_owned(),
-        found: Found::Failed("it is empty".to_owned()),
-    });
+    let failed = Digest::failed("bad.wav".to_owned(), "it is empty".to_owned());
+    digests.push(failed);
     let said = summary(&digests);
     for part in [
         "0.wav: e 0.9000 ± 0.0010, 9 bounces\n",
@@ -39,7 +37,7 @@ fn a_batch_says_each_file_then_the_mean_and_who_is_far() {
         "bad.wav: failed: it is empty\n",
         "11 recordings, 10 drops; without a drop: 1; failed: 1\n",
         "more than they claim",
-        "outliers two\\n.wav drop 2: e 0.9500",
+        "outlier  two\\n.wav drop 2: e 0.9500",
         "Without them:\n  mean e   0.90039 ± 0.00033",
         "no more than they claim",
     ] {

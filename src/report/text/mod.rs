@@ -1,12 +1,15 @@
-//! The report for a person: the answer first, then the impacts, then what to know.
+//! The report for a person: the answer first, then what it means in words, then what to do.
 
-mod answer;
+mod details;
+mod heading;
 mod models;
 mod table;
+mod words;
 
+use super::numbers::listed;
 use super::wrap::wrapped;
-use super::{Impact, Irregular, Rejected, Report, Warning, rule};
-use answer::{answer, ways};
+use super::{Drop, Impact, Irregular, Rejected, Report, Warning, WarningCode, batch, rule};
+use details::{basis, ways};
 pub(crate) use models::model_name;
 use models::models;
 
@@ -14,61 +17,88 @@ use models::models;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Detail {
-    /// The answer and the warnings.
+    /// A line per drop for a shell script: e, its standard error, bounces, seconds, warnings and the file.
     Answer,
-    /// Beside them the ways to e, the impacts, and what was rejected, like by like.
+    /// The answer, what it means in words, and the warnings.
     Usual,
-    /// Beside them the models that were compared, and each sound that was rejected.
+    /// Beside them the plain formulas, the impacts, the models that were compared, and each sound that was rejected.
     Everything,
 }
 
-/// Lines that answer first (e, n, total time), then a table of impacts, then what was rejected, then warnings.
+/// How a program whose user can do something about a warning says so: `--height`.
+pub type Advice<'a> = &'a dyn Fn(WarningCode) -> Option<&'static str>;
+
+/// The answer, what it means, then the warnings; see [`Detail`] for what else there is.
 #[must_use]
 pub fn to_text(report: &Report, detail: Detail) -> String {
-    let mut out = String::new();
-    let drops = &report.drops;
-    let count = drops.len();
-    line(
-        &mut out,
-        &match count {
-            0 => format!("{}: no drop found", report.file),
-            1 => format!("{}: one drop", report.file),
-            _ => format!("{}: {count} drops", report.file),
-        },
-    );
-    let judged = |i| {
-        let judged = report.rule.as_ref();
-        judged.map_or_else(Vec::new, |judged| rule::entries(judged, i))
-    };
-    for (i, drop) in drops.iter().enumerate() {
-        if count > 1 {
-            line(&mut out, &format!("\nDrop {}", i + 1));
-        }
-        answer(&mut out, drop, &judged(i));
-        if detail != Detail::Answer {
-            ways(&mut out, &drop.estimates);
-            table(&mut out, &drop.impacts);
-            irregular(&mut out, &drop.irregular);
-            if detail == Detail::Everything {
-                models(&mut out, &drop.model);
-            }
-            rejects(&mut out, &drop.rejected, "between the impacts", detail);
-        }
-        warnings(&mut out, &drop.warnings);
+    to_text_with(report, detail, &|_| None)
+}
+
+/// The same with advice behind the warnings.
+#[must_use]
+pub fn to_text_with(report: &Report, detail: Detail, advice: Advice<'_>) -> String {
+    if detail == Detail::Answer {
+        return heading::for_shell(report);
     }
-    if detail == Detail::Everything || detail == Detail::Usual && count == 0 {
-        let place = if count == 0 {
+    let mut out = String::new();
+    line(&mut out, &heading::heading(report));
+    match report.drops.as_slice() {
+        [] => {}
+        [drop] => one(&mut out, report, (0, drop), detail),
+        drops => several(&mut out, report, drops, detail),
+    }
+    if detail == Detail::Everything {
+        let place = if report.drops.is_empty() {
             "in the recording"
         } else {
             "outside the drops"
         };
-        rejects(&mut out, &report.rejected, place, detail);
+        rejects(&mut out, &report.rejected, place);
     }
     if let Some(spread) = rule::spread(report) {
         line(&mut out, &format!("\n{}", wrapped(&spread, 2)));
     }
-    warnings(&mut out, &report.warnings);
+    warnings(&mut out, report, advice);
     out
+}
+
+/// What is said of a drop below its answer.
+fn one(out: &mut String, report: &Report, (index, drop): (usize, &Drop), detail: Detail) {
+    words::words(out, report, drop, &judged(report, index));
+    irregular(out, &drop.irregular);
+    if detail == Detail::Everything {
+        basis(out, drop);
+        ways(out, &drop.estimates);
+        table(out, &drop.impacts);
+        models(out, &drop.model);
+        rejects(out, &drop.rejected, "between the impacts");
+    }
+}
+
+/// The drops below each other, their mean and spread, and in detail each by itself.
+fn several(out: &mut String, report: &Report, drops: &[Drop], detail: Detail) {
+    for (i, answer) in heading::list(drops).iter().enumerate() {
+        line(out, answer);
+        for said in judged(report, i) {
+            line(out, &wrapped(&format!("       {said}"), 9));
+        }
+    }
+    let together = batch::together_of(drops);
+    if !together.is_empty() {
+        out.push('\n');
+        out.push_str(&together);
+    }
+    if detail == Detail::Everything {
+        for (i, drop) in drops.iter().enumerate() {
+            line(out, &format!("\nDrop {}: {}", i + 1, heading::answer(drop)));
+            one(out, report, (i, drop), detail);
+        }
+    }
+}
+
+fn judged(report: &Report, index: usize) -> Vec<String> {
+    let judged = report.rule.as_ref();
+    judged.map_or_else(Vec::new, |judged| rule::entries(judged, index))
 }
 
 fn line(out: &mut String, text: &str) {
@@ -97,45 +127,62 @@ fn irregular(out: &mut String, irregular: &[Irregular]) {
     }
 }
 
-/// Rejected events that are written out; the JSON document has them all.
-const SHOWN: usize = 8;
-
-fn rejects(out: &mut String, rejected: &[Rejected], place: &str, detail: Detail) {
+/// What was rejected, like by like, with all their times.
+fn rejects(out: &mut String, rejected: &[Rejected], place: &str) {
     if rejected.is_empty() {
         return;
     }
     line(out, &format!("\nRejected {place}: {}", rejected.len()));
-    if detail == Detail::Everything {
-        for r in rejected {
-            line(
-                out,
-                &wrapped(&format!("  {:.4} s: {}", r.time_s, r.detail), 4),
-            );
-        }
-        return;
-    }
-    let mut kinds: Vec<(&str, usize, &Rejected)> = Vec::new();
+    let mut kinds: Vec<(&str, Vec<String>)> = Vec::new();
     for r in rejected {
-        match kinds.iter_mut().find(|(detail, ..)| *detail == r.detail) {
-            Some((_, count, _)) => *count += 1,
-            None => kinds.push((&r.detail, 1, r)),
+        let time = format!("{:.4}", r.time_s);
+        match kinds.iter_mut().find(|(detail, _)| *detail == r.detail) {
+            Some((_, times)) => times.push(time),
+            None => kinds.push((&r.detail, vec![time])),
         }
     }
-    kinds.sort_by_key(|&(_, count, _)| std::cmp::Reverse(count));
-    for (detail, count, first) in kinds.iter().take(SHOWN) {
-        let told = match count {
-            1 => format!("  {:.4} s: {detail}", first.time_s),
-            _ => format!("  {count} times, first at {:.4} s: {detail}", first.time_s),
-        };
+    kinds.sort_by_key(|(_, times)| std::cmp::Reverse(times.len()));
+    for (detail, times) in kinds {
+        let told = format!("  {detail}: {} s", times.join(", "));
         line(out, &wrapped(&told, 4));
     }
 }
 
-fn warnings(out: &mut String, warnings: &[Warning]) {
-    if !warnings.is_empty() {
+/// Each warning once, with the numbers of the drops that have it where there are several.
+fn warnings(out: &mut String, report: &Report, advice: Advice<'_>) {
+    let mut told: Vec<(&Warning, Vec<usize>)> = Vec::new();
+    for (i, drop) in report.drops.iter().enumerate() {
+        for warning in &drop.warnings {
+            match told.iter_mut().find(|(known, _)| *known == warning) {
+                Some((_, drops)) => drops.push(i + 1),
+                None => told.push((warning, vec![i + 1])),
+            }
+        }
+    }
+    told.extend(report.warnings.iter().map(|w| (w, Vec::new())));
+    if !told.is_empty() {
         line(out, "");
     }
-    for warning in warnings {
-        line(out, &wrapped(&format!("Warning: {}", warning.message), 2));
+    for (warning, drops) in told {
+        let of = if report.drops.len() > 1 {
+            of_drops(&drops)
+        } else {
+            String::new()
+        };
+        let advice = advice(warning.code).map_or_else(String::new, |a| format!(" ({a})"));
+        let said = format!("Warning: {of}{}{advice}", warning.message);
+        line(out, &wrapped(&said, 2));
     }
 }
+
+/// `drop 2: `, `drops 2, 3 and 5: `; nothing for the whole recording.
+fn of_drops(numbers: &[usize]) -> String {
+    match numbers.len() {
+        0 => String::new(),
+        1 => format!("drop {}: ", listed(numbers)),
+        _ => format!("drops {}: ", listed(numbers)),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -61,27 +61,44 @@ impl<'a> Joint<'a> {
 
     /// Refines times and template until they rest, without jumps.
     pub(super) fn settle(&mut self) {
+        let mut heads = self.heads();
         for _ in 0..LIMIT {
-            self.hold();
-            let before = self.now();
-            self.rest();
-            self.learn_misfit();
-            if self.rests_since(&before) {
+            if self.round(&mut heads) {
                 break;
             }
         }
     }
 
-    /// The same with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
+    /// One round of the outer loop, from the heads as they are; whether nothing moved.
+    pub(super) fn round(&mut self, heads: &mut Vec<Sample>) -> bool {
+        self.hold(heads);
+        let before = self.now();
+        *heads = self.rest();
+        self.learn_misfit(heads);
+        self.rests_since(&before)
+    }
+
+    /// Refines times and template by the heads first and then by the whole template, with jumps once those rest.
+    pub(super) fn settle_whole(&mut self) {
+        self.round(&mut self.heads());
+        self.learn_whole();
+        self.settle();
+        if self.jump(&mut vec![0.0; self.places.len()]) {
+            self.settle();
+        }
+    }
+
+    /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
     /// that match nearly as well.
     pub(super) fn search_and_settle(&mut self) -> Vec<f64> {
         let mut ambiguities = vec![0.0; self.places.len()];
+        let mut heads = self.heads();
         for _ in 0..LIMIT {
-            self.hold();
+            self.hold(&mut heads);
             let before = self.now();
             let jumped = self.jump(&mut ambiguities);
-            self.rest();
-            self.learn_misfit();
+            heads = self.rest();
+            self.learn_misfit(&heads);
             if !jumped || self.rests_since(&before) {
                 break;
             }
@@ -113,30 +130,28 @@ impl<'a> Joint<'a> {
         jumped
     }
 
-    /// Holds what the impacts differ by, and what else is heard, as they are known now.
-    fn hold(&mut self) {
-        let head = self.template.head;
-        for i in 0..self.places.len() {
-            self.noise[i] = self.noise(self.begin(i), head, None);
-            self.weights[i] = vec![1.0; head];
-        }
-        let heads = self.heads();
-        for (i, h) in heads.iter().enumerate() {
-            self.weights[i] = self.weights_of(i, h);
-            for (n, w) in self.noise[i].iter_mut().zip(&self.weights[i]) {
+    /// Holds what the impacts differ by, and what else is heard, as they are known now from their heads.
+    fn hold(&mut self, heads: &mut [Sample]) {
+        for (i, head) in heads.iter_mut().enumerate() {
+            head.noise = self.noise(self.begin(i), self.template.head, None);
+            head.weights = self.weights_of(i, head);
+            for (n, w) in head.noise.iter_mut().zip(&head.weights) {
                 *n /= w;
             }
+            self.noise[i].clone_from(&head.noise);
+            self.weights[i].clone_from(&head.weights);
         }
-        self.overdispersions = overdispersions(self);
+        self.overdispersions = overdispersions(self, heads);
         self.guided = self.guided.map(|_| usual_move(&self.priors, &self.places));
     }
 
     /// Share of the energy of the sounds that is not in their template, learnt where they are until it rests.
     pub(super) fn unlike(&mut self) -> f64 {
+        let mut heads = self.heads();
         let mut known = 0.0;
         for _ in 0..LIMIT {
-            self.hold();
-            self.learn_misfit();
+            self.hold(&mut heads);
+            self.learn_misfit(&heads);
             let now = self.unlike_now();
             if (now - known).abs() < UNLIKE_REST {
                 break;
@@ -159,13 +174,8 @@ impl<'a> Joint<'a> {
         each.collect()
     }
 
-    /// Learns what the impacts differ by from their heads.
-    fn learn_misfit(&mut self) {
-        let heads = self.heads();
-        self.learn_misfit_of(&heads);
-    }
-
-    fn learn_misfit_of(&mut self, samples: &[Sample]) {
+    /// Learns what the impacts differ by.
+    fn learn_misfit(&mut self, samples: &[Sample]) {
         let smoothing = samples_in(MISFIT_S, self.started.rate);
         let stretches = &self.started.contact_stretches;
         self.template.learn_misfit(samples, stretches, smoothing);
@@ -189,7 +199,7 @@ impl<'a> Joint<'a> {
         let samples: Vec<Sample> = of.iter().map(|&i| self.sample(i, length)).collect();
         self.template
             .learn_shape(&samples, &self.started.contact_stretches);
-        self.learn_misfit_of(&samples);
+        self.learn_misfit(&samples);
     }
 }
 

@@ -100,10 +100,9 @@ struct Place {
     amplitude: f64,
 }
 
-/// Times of the impacts from coarse times in ascending order, and the template that they have in common; an impact that does
-/// not resemble the others keeps the detector's time, and where most do not, all are timed by their [onsets](onset). None if
-/// there are fewer than three.
-pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<Impact>, Template)> {
+/// Times of the impacts from coarse times in ascending order; an impact that does not resemble the others keeps the
+/// detector's time, and where most do not, all are timed by their [onsets](onset). None if there are fewer than three.
+pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Vec<Impact>> {
     let started = Started::of(whitened, coarse)?;
     let aligned = Aligned::of(&started)?;
     let mut joint = Joint::of(&started, aligned.clone(), 1);
@@ -115,10 +114,26 @@ pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<(Vec<I
             std_s: onset.std / started.rate,
             ..coarse
         };
-        let timed = onsets.iter().zip(coarse).map(begins).collect();
-        return Some((timed, joint.template));
+        return Some(onsets.iter().zip(coarse).map(begins).collect());
     }
     let corrected = time_walk::correct(joint, &aligned);
+    Some(timed(whitened.sound(), coarse, &started, &corrected))
+}
+
+/// The same with few jumps and without time walk, or as they are aligned where they are unlike, and their template: by it more of them
+/// are found.
+pub(super) fn sketch(
+    whitened: &Whitened<'_>,
+    coarse: &[Impact],
+) -> Option<(Vec<Impact>, Template)> {
+    let started = Started::of(whitened, coarse)?;
+    let aligned = Aligned::of(&started)?;
+    let mut joint = Joint::of(&started, aligned.clone(), 1);
+    if joint.unlike() <= UNLIKE {
+        joint = Joint::of(&started, aligned, 1);
+        joint.settle_whole();
+    }
+    let corrected = Corrected::without_walk(joint);
     let timed = timed(whitened.sound(), coarse, &started, &corrected);
     Some((timed, corrected.joint.template))
 }

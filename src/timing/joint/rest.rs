@@ -2,7 +2,8 @@
 
 use super::Place;
 use super::alternate::Joint;
-use super::step::{Moved, STEP, Step};
+use super::step::{Moved, Step};
+use crate::linalg::dot;
 use crate::signal::template::Sample;
 use crate::signal::template::average::factors;
 
@@ -23,43 +24,41 @@ const STEADY: f64 = 0.9;
 const SHARES: (f64, f64) = (0.5, 0.95);
 
 impl Joint<'_> {
-    /// Times and template in turn until they rest.
+    /// Times and template in turn until they rest. Gives the heads as they rest.
     ///
     /// Where all moves are about the same share r of those of the round before, the rest of the way is
     /// `r + r² + … = r/(1 − r)` of the last ones (Aitken), and is gone at once.
-    pub(super) fn rest(&mut self) {
+    pub(super) fn rest(&mut self) -> Vec<Sample> {
         let count = self.places.len();
-        let mut before: Option<Vec<Moved>> = None;
+        let mut before: Option<Vec<f64>> = None;
         let (mut last, mut gains) = (vec![0.0; count], vec![1.0; count]);
+        let mut heads = Vec::new();
         for _ in 0..LIMIT {
             let steps: Vec<Step> = (0..count).map(|i| self.step(i, gains[i])).collect();
-            for ((gain, last), step) in gains.iter_mut().zip(&mut last).zip(&steps) {
-                let by = step.moved.by;
-                if by * *last < 0.0 && by.abs() > OVERSHOT * last.abs() {
+            let moves: Vec<Moved> = steps.iter().map(|s| s.moved).collect();
+            for ((gain, last), moved) in gains.iter_mut().zip(&mut last).zip(&moves) {
+                if moved.by * *last < 0.0 && moved.by.abs() > OVERSHOT * last.abs() {
                     *gain *= 0.5;
                 }
-                *last = by;
+                *last = moved.by;
             }
-            let (heads, moves): (Vec<Sample>, Vec<Moved>) =
-                steps.into_iter().map(|s| (s.sample, s.moved)).unzip();
+            let beyond = self.beyond_common(&moves);
+            let share = before.as_ref().and_then(|b| steady_share(b, &beyond));
+            let left = share.map_or(0.0, |share| share / (1.0 - share));
+            let on = beyond.iter().zip(&moves);
+            let on = on.map(|(z, m)| (1.0 + left) * z * m.std - m.by);
+            let each = steps.iter().zip(on).enumerate();
+            heads = each
+                .map(|(i, (step, on))| self.go_on(i, step, on))
+                .collect();
             let stretches = &self.started.contact_stretches;
             self.template.learn_shape(&heads, stretches);
-            if self.greatest_move(&moves) < REST {
+            if greatest(&beyond) < REST {
                 break;
             }
-            let share = before.as_ref().and_then(|b| steady_share(b, &moves));
-            if let Some(share) = share {
-                self.go_on(&moves, share);
-            }
-            before = share.is_none().then_some(moves);
+            before = share.is_none().then_some(beyond);
         }
-    }
-
-    /// Goes the rest of the way whose steps each are a share of the one before.
-    fn go_on(&mut self, moves: &[Moved], share: f64) {
-        for (place, moved) in self.places.iter_mut().zip(moves) {
-            place.position += (moved.by * share / (1.0 - share)).clamp(-STEP, STEP);
-        }
+        heads
     }
 
     /// The places as they are, with their standard errors.
@@ -78,12 +77,12 @@ impl Joint<'_> {
         });
         let known = pairs.map(|((_, now), (_, then))| (now / then).ln().abs());
         known.fold(0.0, f64::max) < STD_REST
-            && self.greatest_move(&moves.collect::<Vec<Moved>>()) < HELD_REST
+            && greatest(&self.beyond_common(&moves.collect::<Vec<Moved>>())) < HELD_REST
     }
 
-    /// The greatest move, in standard errors, beyond what all have in common: as many terms in the contact stretch as the
-    /// template has components, which times and template leave undetermined together.
-    fn greatest_move(&self, moves: &[Moved]) -> f64 {
+    /// Moves in standard errors, beyond what all have in common: as many terms in the contact stretch as the template has
+    /// components, which times and template leave undetermined together.
+    fn beyond_common(&self, moves: &[Moved]) -> Vec<f64> {
         let stretches = &self.started.contact_stretches;
         let terms = self.template.components.len();
         let (mut moments, mut right) = ([0.0; 5], [0.0; 3]);
@@ -100,18 +99,19 @@ impl Joint<'_> {
         let [level, slope, bend] = factors(&moments, terms).map_or([0.0; 3], |f| f.solve(&right));
         let beyond = moves.iter().zip(stretches).map(|(moved, u)| {
             let common = level + u * (slope + u * bend);
-            (moved.by - common).abs() / moved.std
+            (moved.by - common) / moved.std
         });
-        beyond.fold(0.0, f64::max)
+        beyond.collect()
     }
 }
 
-/// The share that moves are of those before, where they are steady.
-fn steady_share(before: &[Moved], now: &[Moved]) -> Option<f64> {
-    let dot = |a: &[Moved], b: &[Moved]| -> f64 {
-        let pairs = a.iter().zip(b);
-        pairs.map(|(a, b)| a.by * b.by / (b.std * b.std)).sum()
-    };
+/// The greatest of some moves, either way.
+fn greatest(moves: &[f64]) -> f64 {
+    moves.iter().fold(0.0, |a, m| a.max(m.abs()))
+}
+
+/// The share that moves, in standard errors, are of those before, where they are steady.
+fn steady_share(before: &[f64], now: &[f64]) -> Option<f64> {
     let (same, own, other) = (dot(now, before), dot(now, now), dot(before, before));
     let share = same / other;
     let steady = same > STEADY * (own * other).sqrt() && share > SHARES.0;
@@ -122,19 +122,15 @@ fn steady_share(before: &[Moved], now: &[Moved]) -> Option<f64> {
 mod tests {
     use super::*;
 
-    fn moves(by: &[f64]) -> Vec<Moved> {
-        by.iter().map(|&by| Moved { by, std: 2.0 }).collect()
-    }
-
     #[test]
     fn steady_moves_are_told_from_those_that_turn() {
-        let before = moves(&[1.0, -0.5, 0.2]);
-        let share = steady_share(&before, &moves(&[0.8, -0.4, 0.16])).unwrap();
+        let before = [1.0, -0.5, 0.2];
+        let share = steady_share(&before, &[0.8, -0.4, 0.16]).unwrap();
         assert!((share - 0.8).abs() < 1e-12, "{share}");
-        assert_eq!(steady_share(&before, &moves(&[-0.8, 0.4, -0.16])), None);
-        assert_eq!(steady_share(&before, &moves(&[0.3, -0.15, 0.06])), None);
+        assert_eq!(steady_share(&before, &[-0.8, 0.4, -0.16]), None);
+        assert_eq!(steady_share(&before, &[0.3, -0.15, 0.06]), None);
         // Moves that do not shrink would go on for ever.
-        let share = steady_share(&before, &moves(&[1.1, -0.55, 0.22])).unwrap();
+        let share = steady_share(&before, &[1.1, -0.55, 0.22]).unwrap();
         assert_eq!(share, SHARES.1);
     }
 }

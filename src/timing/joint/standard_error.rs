@@ -27,7 +27,7 @@ const FAINTEST: f64 = 3.0;
 /// neighbours. The excess of the noise just before each impact over white noise, under the same pulls, is added: residual
 /// hum and rumble last longer than a block. The standard error is divided by the [`attenuation`].
 pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
-    let samples = heads(joint);
+    let samples = joint.heads();
     let error_pairs = error_pairs(joint, &samples);
     let excess = noise_excess(joint, &samples);
     let variances = mean_variances(&samples);
@@ -41,17 +41,10 @@ pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
 }
 
 /// Overdispersion of each impact: variance of its match over that by independent samples, at least 1.
-pub(super) fn overdispersions(joint: &Joint<'_>) -> Vec<f64> {
-    let error_pairs = error_pairs(joint, &heads(joint));
+pub(super) fn overdispersions(joint: &Joint<'_>, heads: &[Sample]) -> Vec<f64> {
+    let error_pairs = error_pairs(joint, heads);
     let overdispersion = |i: usize| overdispersion(&error_pairs, i).max(1.0);
     (0..error_pairs.len()).map(overdispersion).collect()
-}
-
-fn heads(joint: &Joint<'_>) -> Vec<Sample> {
-    let length = joint.template.head;
-    (0..joint.places.len())
-        .map(|i| joint.sample(i, length))
-        .collect()
 }
 
 /// Standard errors of all impacts, by independent samples and by blocks.

@@ -9,7 +9,7 @@ use crate::signal::template::Sample;
 use crate::units::real;
 
 /// Farthest that a match moves in one step, in samples. Derived: beyond a sample the expansion in time does not hold.
-pub(super) const STEP: f64 = 1.0;
+const STEP: f64 = 1.0;
 /// Least share that an amplitude falls to in one step, so that it never vanishes or changes its sign.
 const LEAST_AMPLITUDE: f64 = 0.1;
 /// Degrees of freedom of a prior (convention: as robust regression has them): what the detector saw may be another sound.
@@ -18,12 +18,12 @@ const FREEDOM: f64 = 3.0;
 /// A step of one impact.
 #[derive(Debug)]
 pub(super) struct Step {
-    /// Its sound as it then stands.
-    pub sample: Sample,
+    /// Its sound where it was, the others taken out, with a margin on both sides.
+    wide: Vec<f64>,
     pub moved: Moved,
 }
 
-/// How far an impact moved, and the standard error of its place, in samples.
+/// How far an impact moves, and the standard error of its place, in samples.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moved {
     pub by: f64,
@@ -77,23 +77,14 @@ impl Joint<'_> {
         let (off, prior) = self.pull_of_prior(i);
         let information = self.information(i, &normal);
         let by = (information * matched + prior * off) / (information + prior);
-        let by = if by.is_finite() {
-            gain * by.clamp(-STEP, STEP)
-        } else {
-            0.0
-        };
+        let by = if by.is_finite() { by } else { 0.0 };
+        let by = gain * by.clamp(-STEP, STEP);
         self.places[i] = Place {
             position: place.position + by,
             amplitude: amplitude.max(LEAST_AMPLITUDE * place.amplitude),
         };
         Step {
-            sample: Sample {
-                amplitude: self.places[i].amplitude,
-                contact_stretch: self.started.contact_stretches[i],
-                sound: shifted(&wide, real(KERNEL) + by, head),
-                noise: self.noise[i].clone(),
-                weights: self.weights[i].clone(),
-            },
+            wide,
             moved: Moved {
                 by,
                 std: (information + prior).sqrt().recip(),
@@ -101,10 +92,28 @@ impl Joint<'_> {
         }
     }
 
+    /// Goes on from where a step led, by at most [`STEP`]; gives the head where the impact then stands.
+    pub(super) fn go_on(&mut self, i: usize, step: &Step, by: f64) -> Sample {
+        let by = by.clamp(-STEP, STEP);
+        self.places[i].position += by;
+        Sample {
+            amplitude: self.places[i].amplitude,
+            contact_stretch: self.started.contact_stretches[i],
+            sound: shifted(
+                &step.wide,
+                real(KERNEL) + step.moved.by + by,
+                self.template.head,
+            ),
+            noise: self.noise[i].clone(),
+            weights: self.weights[i].clone(),
+        }
+    }
+
     /// Standard error of a place by its match and its prior, in samples.
     pub(super) fn std(&self, i: usize) -> f64 {
-        let head = self.sample(i, self.template.head);
-        let normal = self.normal(i, &head.sound, &head.noise);
+        // The information is that of the template, whatever is heard.
+        let noise = &self.noise[i];
+        let normal = self.normal(i, noise, noise);
         let prior = self.pull_of_prior(i).1;
         (self.information(i, &normal) + prior).sqrt().recip()
     }

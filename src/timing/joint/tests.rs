@@ -106,7 +106,7 @@ fn errors_from(samples: &[f32], onsets_s: &[f64], seed: u64) -> Vec<(f64, f64)> 
         .collect();
     let span_s = (coarse[0], coarse[coarse.len() - 1]);
     let sound = Whitened::around(Sound::from_start(samples, RATE), span_s);
-    let (timed, _) = times(&sound, &seen(&coarse)).unwrap();
+    let timed = times(&sound, &seen(&coarse)).unwrap();
     let mut found: Vec<(f64, f64)> = timed
         .iter()
         .zip(onsets_s)
@@ -207,7 +207,7 @@ fn an_impact_unlike_the_others_keeps_the_detectors_time_and_says_so() {
         Sound::from_start(&samples, RATE),
         (onsets_s[0], onsets_s[11]),
     );
-    let (timed, _) = times(&sound, &seen(&onsets_s)).unwrap();
+    let timed = times(&sound, &seen(&onsets_s)).unwrap();
     let stds: Vec<f64> = timed.iter().map(|t| t.std_s).collect();
     assert!(stds[5] > 1e-4, "stated {} s", stds[5]);
     let others = stds.iter().enumerate().filter(|&(i, _)| i != 5);

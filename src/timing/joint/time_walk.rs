@@ -85,6 +85,17 @@ pub(super) struct Corrected<'a> {
     pub ambiguities: Vec<f64>,
 }
 
+impl<'a> Corrected<'a> {
+    /// The impacts as they are.
+    pub(super) fn without_walk(joint: Joint<'a>) -> Self {
+        Self {
+            ambiguities: vec![0.0; joint.places.len()],
+            walk: TimeWalk::default(),
+            joint,
+        }
+    }
+}
+
 /// Refines the times of impacts as they are aligned, and corrects them for time walk if they have any. It is hinted at by their
 /// alignment, or once they rest.
 pub(super) fn correct<'a>(mut joint: Joint<'a>, aligned: &Aligned) -> Corrected<'a> {
@@ -92,9 +103,8 @@ pub(super) fn correct<'a>(mut joint: Joint<'a>, aligned: &Aligned) -> Corrected<
     let hinted = walk(&joint, HINT).is_some();
     let early = hinted.then(|| with_walk(started, aligned)).flatten();
     let corrected = |(joint, walk): (Joint<'a>, TimeWalk)| Corrected {
-        ambiguities: vec![0.0; joint.places.len()],
-        joint,
         walk,
+        ..Corrected::without_walk(joint)
     };
     if let Some(early) = early {
         return corrected(early);
@@ -120,8 +130,13 @@ fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, 
     let more = [FEWEST_LINEAR, FEWEST_SQUARE];
     let components = 1 + more.iter().filter(|&&n| count >= n).count();
     let mut joint = Joint::of(started, aligned.clone(), components);
-    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it.
-    joint.settle();
+    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it. A round shows
+    // whether more is worth its time.
+    let mut heads = joint.heads();
+    if !joint.round(&mut heads) {
+        walk(&joint, HINT)?;
+        joint.settle();
+    }
     let walk = walk(&joint, SIGNIFICANT)?;
     Some((joint, walk))
 }

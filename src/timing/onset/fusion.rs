@@ -111,20 +111,21 @@ fn normalised(ln: &[f64]) -> Vec<f64> {
     p.into_iter().map(|p| p / sum).collect()
 }
 
-/// Student's density with 3 degrees of freedom at whole places from its middle on, of sum 1 over both sides.
+/// Student's density with 3 degrees of freedom at whole places, this many on either side of its middle one, of sum 1.
 fn kernel(width: f64, places: usize) -> Vec<f64> {
     let width = width.max(NARROWEST);
-    let at = |k: usize| (1.0 + (real(k) / width).powi(2) / 3.0).powi(-2);
-    let one_side: Vec<f64> = (0..places).map(at).collect();
-    let sum = 2.0 * one_side.iter().sum::<f64>() - one_side[0];
-    one_side.into_iter().map(|k| k / sum).collect()
+    let at = |k: usize| (1.0 + (real(k.abs_diff(places)) / width).powi(2) / 3.0).powi(-2);
+    let both: Vec<f64> = (0..=2 * places).map(at).collect();
+    let sum: f64 = both.iter().sum();
+    both.into_iter().map(|k| k / sum).collect()
 }
 
 fn convolved(p: &[f64], kernel: &[f64]) -> Vec<f64> {
+    let middle = kernel.len() / 2;
     let mut out = vec![0.0; p.len()];
     for (i, p) in p.iter().enumerate().filter(|(_, p)| **p > LEAST_PLACE) {
-        for (k, o) in out.iter_mut().enumerate() {
-            *o += p * kernel[i.abs_diff(k)];
+        for (o, k) in out.iter_mut().zip(&kernel[middle - i..]) {
+            *o += p * k;
         }
     }
     out

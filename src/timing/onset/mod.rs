@@ -19,7 +19,7 @@ mod rise;
 
 use bands::Windows;
 use fusion::Posterior;
-use rise::Rise;
+use rise::{Likelihood, Rise};
 
 use super::joint::Prior;
 use crate::statistics::upper_median;
@@ -62,9 +62,11 @@ pub(super) fn onsets(sound: &[f64], rate: f64, priors: &[Prior]) -> Vec<Prior> {
 /// The posteriors in windows, and the rises of all bands, learnt in turn from those given until no onset moves.
 fn learnt(windows: &Windows, mut rises: Vec<Rise>, rate: f64) -> (Vec<Posterior>, Vec<Rise>) {
     let mut posteriors: Vec<Posterior> = Vec::new();
+    let mut likelihoods: Vec<Vec<Likelihood>> = Vec::new();
     for _ in 0..LIMIT {
-        let each = rises.iter().zip(&windows.bands);
-        let likelihoods: Vec<_> = each.map(|(r, b)| r.likelihoods(b, windows)).collect();
+        let each = rises.iter().zip(&windows.bands).enumerate();
+        let now = each.map(|(k, (r, b))| r.likelihoods(b, windows, likelihoods.get(k)));
+        likelihoods = now.collect();
         let now = fusion::fuse(&likelihoods, windows, rate);
         let rests = rest(&posteriors, &now);
         posteriors = now;

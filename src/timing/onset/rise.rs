@@ -112,14 +112,21 @@ impl Rise {
         }
     }
 
-    /// The likelihoods of all impacts.
-    pub(super) fn likelihoods(&self, band: &Band, windows: &Windows) -> Vec<Likelihood> {
-        let each = windows.of.iter().zip(&band.sums);
-        let of = each.map(|(window, sums)| {
+    /// The likelihoods of all impacts, from the sizes that fitted before, if any.
+    pub(super) fn likelihoods(
+        &self,
+        band: &Band,
+        windows: &Windows,
+        before: Option<&Vec<Likelihood>>,
+    ) -> Vec<Likelihood> {
+        let each = windows.of.iter().zip(&band.sums).enumerate();
+        let of = each.map(|(i, (window, sums))| {
             let places = 0..=2 * window.reach;
+            let before = before.map(|b| &b[i].fits);
             let at = places.map(|place| {
                 let onset = window.onset(place, windows);
-                let (ln, fit) = self.at(band.noise, window, sums, onset);
+                let size = before.map(|fits| fits[place].size);
+                let (ln, fit) = self.at((band.noise, window, sums), onset, size);
                 (self.kappa * ln, fit)
             });
             let (ln, fits) = at.unzip();
@@ -128,8 +135,13 @@ impl Rise {
         of.collect()
     }
 
-    /// Log-likelihood with κ = 1, and the fit, for an onset at an index of the sums.
-    fn at(&self, noise: f64, window: &Window, sums: &[f64], onset: usize) -> (f64, Fit) {
+    /// Log-likelihood with κ = 1, and the fit, for an onset at an index of the sums, from the size that fitted before.
+    fn at(
+        &self,
+        (noise, window, sums): (f64, &Window, &[f64]),
+        onset: usize,
+        before: Option<f64>,
+    ) -> (f64, Fit) {
         let foot = onset - self.foot;
         let last = sums.len() - 1;
         let early = sums[foot] - sums[foot - window.before];
@@ -139,7 +151,7 @@ impl Rise {
         let end = (foot + self.ends[SEGMENTS - 1]).min(last);
         segments.counts[SEGMENTS - 1] += real(last - end);
         segments.energies[SEGMENTS - 1] += sums[last] - sums[end];
-        let size = self.size(level, &segments);
+        let size = self.size(level, &segments, before);
         let mut logs = [0.0; SEGMENTS];
         #[expect(
             clippy::cast_possible_truncation,
@@ -149,32 +161,43 @@ impl Rise {
             *log = ln_from_one((1.0 + size * value / level) as f32);
         }
         let mut ln = real(last) * level.ln() + sums[foot] / level;
+        let inverses = self.inverses(level, size);
         for (k, log) in logs.iter().enumerate() {
-            let variance = level + size * self.values[k];
-            ln += segments.counts[k] * f64::from(*log) + segments.energies[k] / variance;
+            ln += segments.counts[k] * f64::from(*log) + segments.energies[k] * inverses[k];
         }
         (-0.5 * ln, Fit { size, level })
     }
 
-    /// The size of greatest likelihood, by Fisher's scoring.
-    fn size(&self, level: f64, segments: &Segments) -> f64 {
+    /// Inverse variances of the segments.
+    fn inverses(&self, level: f64, size: f64) -> [f64; SEGMENTS] {
+        self.values.map(|value| 1.0 / (level + size * value))
+    }
+
+    /// The size of greatest likelihood, by Fisher's scoring: from the one before a step, as rounds go on, and otherwise from
+    /// the energy above the level.
+    fn size(&self, level: f64, segments: &Segments, before: Option<f64>) -> f64 {
+        if let Some(before) = before {
+            return self.scored(level, segments, before);
+        }
         let Segments { counts, energies } = segments;
         let count: f64 = counts.iter().sum();
         let weight: f64 = counts.iter().zip(&self.values).map(|(n, g)| n * g).sum();
         let above = energies.iter().sum::<f64>() - level * count;
-        let mut size = above.max(LEAST_SIZE * level * count) / weight;
-        for _ in 0..SIZE_STEPS {
-            let (mut gradient, mut information) = (0.0, 0.0);
-            for (k, value) in self.values.iter().enumerate() {
-                let variance = level + size * value;
-                let weight = value / variance;
-                gradient += weight * (energies[k] / variance - counts[k]);
-                information += counts[k] * weight * weight;
-            }
-            let (least, most) = (SIZE_FACTORS.0 * size, SIZE_FACTORS.1 * size);
-            size = (size + gradient / information).clamp(least, most);
+        let first = above.max(LEAST_SIZE * level * count) / weight;
+        (0..SIZE_STEPS).fold(first, |size, _| self.scored(level, segments, size))
+    }
+
+    /// One step of scoring.
+    fn scored(&self, level: f64, segments: &Segments, size: f64) -> f64 {
+        let inverses = self.inverses(level, size);
+        let (mut gradient, mut information) = (0.0, 0.0);
+        for (k, inverse) in inverses.iter().enumerate() {
+            let weight = self.values[k] * inverse;
+            gradient += weight * (segments.energies[k] * inverse - segments.counts[k]);
+            information += segments.counts[k] * weight * weight;
         }
-        size
+        let (least, most) = (SIZE_FACTORS.0 * size, SIZE_FACTORS.1 * size);
+        (size + gradient / information).clamp(least, most)
     }
 
     /// Learns the rise and κ from all impacts, each over its likely places (expectation and maximisation).

@@ -20,6 +20,8 @@ pub mod core {
     pub const FINISH: fn(Listener) -> Heard = Listener::finish;
     pub const CHECK: fn(&Settings) -> Result<(), Error> = Settings::check;
     pub const TEXT: fn(&Report, report::text::Detail) -> String = report::text::to_text;
+    pub const TEXT_WITH: fn(&Report, report::text::Detail, report::text::Advice<'_>) -> String =
+        report::text::to_text_with;
     pub const CSV: fn(&Report) -> String = report::csv::to_csv;
     pub const MODELS: [ModelChoice; 7] = [
         ModelChoice::Auto,

@@ -8,7 +8,7 @@ pub(super) use table::Table;
 
 use crate::Error;
 use crate::cli::listen::Listening;
-use crate::units::Quantity;
+use crate::cli::quantity::{diameter, height, mass};
 
 /// What is known of one file beyond what the command line says of all.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -24,12 +24,11 @@ const NAMES: [&str; 3] = ["height", "mass", "diameter"];
 impl Given {
     /// Reads a quantity by its name, which is one of [`NAMES`].
     fn set(&mut self, name: &str, text: &str) -> Result<(), Error> {
-        let (argument, quantity, place) = match name {
-            "height" => ("height", Quantity::Length, &mut self.height_m),
-            "mass" => ("mass", Quantity::Mass, &mut self.mass_kg),
-            _ => ("diameter", Quantity::Length, &mut self.diameter_m),
+        let (argument, value, place) = match name {
+            "height" => ("height", height(text)?, &mut self.height_m),
+            "mass" => ("mass", mass(text)?, &mut self.mass_kg),
+            _ => ("diameter", diameter(text)?, &mut self.diameter_m),
         };
-        let value = quantity.parse(argument, text)?;
         if value <= 0.0 {
             return Err(Error::argument(argument, value, "above 0"));
         }

@@ -1,7 +1,7 @@
 //! `--options TABLE.csv`: a row for each file.
 
 use std::collections::{HashMap, HashSet};
-use std::fs::File;
+use std::fs;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -22,25 +22,30 @@ struct Row {
 }
 
 impl Table {
-    /// Reads a table with a heading: `file` and one or more of [`NAMES`], in any order.
+    /// Reads a table with a heading: `file` and one or more of [`NAMES`], in any order, separated by commas, or by semicolons
+    /// as a spreadsheet writes them where numbers have decimal commas.
     pub(in crate::cli::batch) fn read(path: &Path) -> Result<Self, Error> {
-        let file = File::open(path).map_err(|e| Error::from(e).in_file(path))?;
-        Self::parse(file, path)
+        let text = fs::read(path).map_err(|e| Error::from(e).in_file(path))?;
+        Self::parse(&text, path)
     }
 
-    fn parse(source: impl io::Read, path: &Path) -> Result<Self, Error> {
+    fn parse(text: &[u8], path: &Path) -> Result<Self, Error> {
+        let heading = text.split(|byte| *byte == b'\n').next().unwrap_or_default();
+        let semicolons = heading.contains(&b';') && !heading.contains(&b',');
         let broken = |e: csv::Error| Error::from(io::Error::other(e)).in_file(path);
         let in_line = |line: u64| format!("{}, line {line}", path.display());
         let mut reader = csv::ReaderBuilder::new()
             .trim(csv::Trim::All)
-            .from_reader(source);
+            .delimiter(if semicolons { b';' } else { b',' })
+            .from_reader(text);
         let heading = reader.headers().map_err(broken)?.clone();
         check(&heading).map_err(|e| e.in_file(in_line(1)))?;
         let mut rows = HashMap::new();
         for record in reader.records() {
             let record = record.map_err(broken)?;
             let line = record.position().map_or(0, csv::Position::line);
-            let (file, row) = row(&heading, &record, line).map_err(|e| e.in_file(in_line(line)))?;
+            let (file, row) =
+                row(&heading, &record, line, semicolons).map_err(|e| e.in_file(in_line(line)))?;
             if rows.insert(file.clone(), row).is_some() {
                 let again = Error::Argument {
                     argument: "file",
@@ -98,7 +103,7 @@ fn check(heading: &csv::StringRecord) -> Result<(), Error> {
     Err(Error::Argument {
         argument: "column",
         got: problem,
-        expected: "file and any of height, mass, diameter, separated by commas, named in the first line",
+        expected: "file and any of height, mass, diameter, separated by commas or by semicolons, named in the first line",
     })
 }
 
@@ -106,12 +111,14 @@ fn row(
     heading: &csv::StringRecord,
     record: &csv::StringRecord,
     line: u64,
+    decimal_commas: bool,
 ) -> Result<(PathBuf, Row), Error> {
     let (mut file, mut given) = (PathBuf::new(), Given::default());
     for (column, text) in heading.iter().zip(record) {
         match column {
             "file" => file = plain(Path::new(text)),
             _ if text.is_empty() => {}
+            _ if decimal_commas => given.set(column, &text.replace(',', "."))?,
             _ => given.set(column, text)?,
         }
     }
@@ -158,9 +165,23 @@ mod tests {
     }
 
     #[test]
+    fn a_table_of_a_spreadsheet_with_decimal_commas_is_read() {
+        let table =
+            parse("\u{feff}file;height;mass\r\na, b.wav;30,5 cm;2,7g\r\nc.wav;0.4;\r\n").unwrap();
+        let first = table.of(Path::new("a, b.wav")).unwrap();
+        assert_eq!((first.height_m, first.mass_kg), (Some(0.305), Some(0.0027)));
+        assert_eq!(table.of(Path::new("c.wav")).unwrap().height_m, Some(0.4));
+    }
+
+    #[test]
     fn a_table_that_says_nothing_clear_is_refused_with_its_line() {
         for (text, line, expected) in [
-            ("file;height\na.wav;1m\n", 1, "separated by commas"),
+            (
+                "file|height\na.wav|1m\n",
+                1,
+                "separated by commas or by semicolons",
+            ),
+            ("file,height\na.wav,\"30,5cm\"\n", 2, "a decimal point"),
             ("name,height\na.wav,1m\n", 1, "column is 'name'"),
             ("height\n1m\n", 1, "without 'file'"),
             ("file,height\na.wav,1kg\n", 2, "30.5cm"),

@@ -1,4 +1,4 @@
-//! The answer of a drop: e, what it rests on, and the ball.
+//! The answer of a drop in the letters of the physics: e, what it rests on, and the ball.
 
 use super::models::{model, rivals};
 use super::{entry, line};
@@ -6,17 +6,15 @@ use crate::fit::model::Budget;
 use crate::report::numbers::{digits_for, with_error};
 use crate::report::{Ball, Drop, Estimates};
 
-/// The answer; what a rule book says of it stands beside it.
-pub(super) fn answer(out: &mut String, drop: &Drop, rule: &[String]) {
+/// What the answer rests on, in the letters of the physics.
+pub(super) fn basis(out: &mut String, drop: &Drop) {
     line(out, "");
-    match &drop.restitution {
-        Some(r) => line(out, &format!("  e        {}", with_error(&r.estimate))),
-        None => line(out, "  e        not determined"),
+    if let Some(r) = &drop.restitution {
+        line(out, &format!("  e        {}", with_error(&r.estimate)));
     }
     if let Some(model) = model(drop) {
         entry(out, &format!("  model    {model}"));
     }
-    line(out, &format!("  bounces  {}", drop.bounces));
     let observed = format!("{:.4} s from first to last impact", drop.observed_time_s);
     match drop.total_time_s {
         Some(total) => entry(
@@ -34,25 +32,24 @@ pub(super) fn answer(out: &mut String, drop: &Drop, rule: &[String]) {
     if let Some(rivals) = rivals(&drop.model) {
         entry(out, &format!("  models   {rivals}"));
     }
-    for (i, said) in rule.iter().enumerate() {
-        let head = if i == 0 { "rule" } else { "" };
-        entry(out, &format!("  {head:<9}{said}"));
-    }
 }
 
-/// Plain formulas for e.
+/// The plain formulas for e that have a value.
 pub(super) fn ways(out: &mut String, estimates: &Estimates) {
-    let others = [
+    let ways = [
         ("flight ratios", estimates.flight_ratio),
         ("equation (25)", estimates.eq25),
         ("equation (30)", estimates.eq30),
         ("first rebound", estimates.first_rebound),
     ];
-    line(out, "\n  e from");
-    for (name, estimate) in others {
-        let value = estimate.map_or_else(|| "-".to_owned(), |e| with_error(&e));
-        line(out, &format!("    {name}  {value}"));
+    let known = ways.iter().filter_map(|(name, e)| Some((name, (*e)?)));
+    let rows: Vec<String> = known
+        .map(|(name, e)| format!("    {name}  {}", with_error(&e)))
+        .collect();
+    if !rows.is_empty() {
+        line(out, "\n  e from");
     }
+    rows.iter().for_each(|row| line(out, row));
 }
 
 fn ball_line(ball: &Ball) -> String {

@@ -1,0 +1,66 @@
+"""Arrays of samples as the library wants them: rows of 32-bit floats, full scale being ±1."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import ArgumentError
+
+__all__ = ["rows"]
+
+
+def rows(
+    samples: npt.ArrayLike, channels: int | None = None
+) -> tuple[npt.NDArray[np.float32], str]:
+    """Rows of samples, one for each channel, and how they were stored; `channels` is how many there have to be.
+
+    Rows of 32-bit floats one after another are not copied.
+    """
+    array = np.asarray(samples)
+    encoding = _encoding(array.dtype)
+    if array.ndim == 1:
+        array = array[np.newaxis, :]
+    if array.ndim != 2:
+        raise ArgumentError(
+            f"samples have {array.ndim} dimensions, expected shape (n,) or (channels, n)"
+        )
+    _check_rows(array.shape, channels)
+    return np.ascontiguousarray(_scaled(array)), encoding
+
+
+def _check_rows(shape: tuple[int, ...], channels: int | None) -> None:
+    count, length = shape
+    turned = count > length > 0 if channels is None else count != channels == length
+    if turned:
+        raise ArgumentError(
+            f"samples have shape {shape}, which is {count} channels of {length} samples: "
+            "transpose them to (channels, n)"
+        )
+    if channels is not None and count != channels:
+        raise ArgumentError(f"samples have {count} channels, expected {channels}")
+
+
+def _encoding(dtype: np.dtype[Any]) -> str:
+    bits = 8 * dtype.itemsize
+    match dtype.kind:
+        case "i" | "u":
+            return f"{bits}-bit integer"
+        case "f":
+            return f"{bits}-bit float"
+    raise ArgumentError(f"samples are of type {dtype}, expected floats or integers")
+
+
+def _scaled(array: npt.NDArray[Any]) -> npt.NDArray[np.float32]:
+    """Full scale becomes ±1: of integers the power of two that ends their range, of unsigned ones about its middle."""
+    kind, full_scale = array.dtype.kind, 2.0 ** (8 * array.dtype.itemsize - 1)
+    # What is too large for 32 bits becomes infinite, and is then read as zero, with a warning in the report.
+    with np.errstate(over="ignore"):
+        if kind == "f":
+            return array.astype(np.float32, copy=False)
+        if kind == "u":
+            centred = array.astype(np.float64) - full_scale
+            return (centred / full_scale).astype(np.float32)
+        return array.astype(np.float32) * np.float32(1.0 / full_scale)

@@ -1,0 +1,88 @@
+"""Which recordings are meant: files, folders with all that is in them, and places that fsspec knows."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import _core
+from .errors import ArgumentError
+
+__all__ = ["Input", "Paths", "gather", "is_remote", "read"]
+
+Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
+
+
+@dataclass(frozen=True)
+class Input:
+    """A recording, and what tells that it has changed."""
+
+    name: str
+    mark: str
+
+
+def gather(paths: Paths) -> list[Input]:
+    """The inputs in the order in which they were named, those of a folder by name; what is named twice is taken once.
+
+    Of a folder all files count, at any depth, whose names end as those of recordings do.
+    """
+    named = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+    found = [i for p in named for i in _of(os.fspath(p))]
+    if not found:
+        raise ArgumentError(f"there are no recordings in {paths!r}")
+    return list(dict.fromkeys(found))
+
+
+def is_remote(name: str) -> bool:
+    """Whether fsspec reads it."""
+    return "://" in name
+
+
+def read(name: str) -> bytes:
+    """The bytes of a recording that fsspec reads."""
+    import fsspec
+
+    with fsspec.open(name, "rb") as file:
+        return bytes(file.read())
+
+
+def _of(name: str) -> Iterator[Input]:
+    if is_remote(name):
+        yield from _remote(name)
+    elif os.path.isdir(name):
+        files = (p for p in Path(name).rglob("*") if _is_meant(str(p)) and p.is_file())
+        yield from (_local(str(p)) for p in sorted(files))
+    else:
+        # What is not there gets a row that says so.
+        yield _local(name)
+
+
+def _local(name: str) -> Input:
+    try:
+        of = os.stat(name)
+    except OSError as error:
+        return Input(name, f"errno {error.errno}")
+    return Input(name, f"{of.st_size} {of.st_mtime_ns}")
+
+
+def _remote(name: str) -> Iterator[Input]:
+    import fsspec
+
+    store, path = fsspec.core.url_to_fs(name)
+    if store.isdir(path):
+        found = store.find(path, detail=True)
+        found = {p: info for p, info in found.items() if _is_meant(p)}
+    elif "*" in path:
+        found = store.glob(path, detail=True)
+    else:
+        found = {path: store.info(path)}
+    for file, info in sorted(found.items()):
+        marks = (info.get(k) for k in ("size", "etag", "ETag", "mtime", "created"))
+        yield Input(store.unstrip_protocol(file), " ".join(map(str, marks)))
+
+
+def _is_meant(name: str) -> bool:
+    hidden = os.path.basename(name).startswith(".")
+    return not hidden and _core.is_named_as_recording(name)

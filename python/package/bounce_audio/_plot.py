@@ -1,0 +1,40 @@
+"""Pictures by matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from .results import Drop
+
+__all__ = ["restitution_by_speed"]
+
+
+def restitution_by_speed(drop: Drop, ax: Axes | None) -> Axes:
+    """e of each impact against its speed with error bars, and e of the drop with its interval."""
+    if ax is None:
+        import matplotlib.pyplot as plt
+
+        ax = plt.subplots()[1]
+    impacts = drop.impacts[~np.isnan(drop.impacts["restitution"])]
+    ax.errorbar(
+        impacts["impact_speed_m_per_s"],
+        impacts["restitution"],
+        xerr=impacts["impact_speed_std_m_per_s"],
+        yerr=impacts["restitution_std"],
+        fmt="o",
+        markersize=3,
+        label="each impact",
+    )
+    if drop.restitution is not None:
+        ax.axhline(drop.restitution.value, color="C1", label="the drop")
+        if drop.restitution.interval95 is not None:
+            ax.axhspan(*drop.restitution.interval95, color="C1", alpha=0.2)
+    ax.set_xlabel("impact speed (m/s)")
+    ax.set_ylabel("coefficient of restitution")
+    ax.legend()
+    return ax

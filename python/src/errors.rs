@@ -1,0 +1,44 @@
+//! The library's errors as the exceptions of `bounce_audio.errors`.
+
+use bounce_audio::Error;
+use pyo3::exceptions::PyOSError;
+use pyo3::{PyErr, import_exception};
+
+import_exception!(bounce_audio.errors, ArgumentError);
+import_exception!(bounce_audio.errors, InternalError);
+import_exception!(bounce_audio.errors, NoSolutionError);
+import_exception!(bounce_audio.errors, RecordingError);
+
+/// The exception of an error, by its kind; its text names the file if there is one.
+pub(crate) fn raised(error: Error) -> PyErr {
+    let said = error.to_string();
+    let (file, cause) = innermost(None, error);
+    match cause {
+        Error::Io(cause) => from_system(file, &cause, said),
+        Error::Argument { .. } | Error::Line { .. } => ArgumentError::new_err(said),
+        Error::NoRoot { .. } => NoSolutionError::new_err(said),
+        Error::Wav { .. } | Error::Recording { .. } => RecordingError::new_err(said),
+        _ => InternalError::new_err(said),
+    }
+}
+
+/// The cause behind the names of files, and the last of these.
+fn innermost(file: Option<String>, error: Error) -> (Option<String>, Error) {
+    match error {
+        Error::InFile { file, source } => innermost(Some(file), *source),
+        cause => (file, cause),
+    }
+}
+
+/// An `OSError`, which Python makes a `FileNotFoundError` and the like by the number.
+fn from_system(file: Option<String>, cause: &std::io::Error, said: String) -> PyErr {
+    match (cause.raw_os_error(), file) {
+        (Some(number), Some(file)) => {
+            let text = cause.to_string();
+            // The system's text without Rust's addition to it.
+            let text = text.split(" (os error").next().unwrap_or_default();
+            PyOSError::new_err((number, text.to_owned(), file))
+        }
+        _ => PyOSError::new_err(said),
+    }
+}

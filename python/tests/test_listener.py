@@ -1,0 +1,75 @@
+"""Streams."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import bounce_audio
+from bounce_audio import ArgumentError, Listener, Synthetic
+
+
+@pytest.fixture(scope="module")
+def two_drops(pingpong: Synthetic) -> np.ndarray:
+    quiet = np.zeros(4 * pingpong.sample_rate_hz, np.float32)
+    return np.concatenate([pingpong.samples, quiet, pingpong.samples])
+
+
+def test_drops_are_told_when_they_are_over(
+    pingpong: Synthetic, two_drops: np.ndarray
+) -> None:
+    rate = pingpong.sample_rate_hz
+    whole = bounce_audio.analyze(two_drops, rate)
+    listener = Listener(rate)
+    pushed = 0
+
+    def blocks():
+        nonlocal pushed
+        for block in np.array_split(two_drops, 200):
+            pushed += len(block)
+            yield block
+
+    drops, heard_until = [], []
+    for drop in listener.drops(blocks(), name="samples"):
+        drops.append(drop)
+        heard_until.append(pushed)
+    assert len(drops) == 2
+    # The first is told before the second has begun.
+    assert heard_until[0] < len(pingpong.samples) + 4 * rate
+    assert listener.report == whole
+    for told, at_once in zip(drops, whole.drops):
+        assert np.array_equal(told.impacts["time_s"], at_once.impacts["time_s"])
+
+
+def test_blocks_of_any_length_give_the_same(pingpong: Synthetic) -> None:
+    rate = pingpong.sample_rate_hz
+    whole = bounce_audio.analyze(pingpong.samples, rate)
+    for blocks in (3, 1000):
+        listener = Listener(rate)
+        for block in np.array_split(pingpong.samples, blocks):
+            listener.push(block)
+        listener.push(pingpong.samples[:0])
+        assert listener.finish("samples") == whole
+
+
+def test_two_channels_and_a_rule(pingpong: Synthetic) -> None:
+    two = np.stack([0.1 * pingpong.samples, pingpong.samples])
+    listener = Listener(pingpong.sample_rate_hz, 2, rule="ittf-ball")
+    listener.push(two)
+    report = listener.finish("samples")
+    assert report == bounce_audio.analyze(
+        two, pingpong.sample_rate_hz, rule="ittf-ball"
+    )
+
+
+def test_misuse_is_named() -> None:
+    listener = Listener(48_000, 2, height_m=0.3)
+    with pytest.raises(ArgumentError, match="1 channels, expected 2"):
+        listener.push(np.zeros(100))
+    listener.push(np.zeros((2, 100)))
+    listener.finish()
+    for call in (listener.finish, lambda: listener.push(np.zeros((2, 100)))):
+        with pytest.raises(ArgumentError, match="finished"):
+            call()
+    with pytest.raises(ArgumentError, match="channels"):
+        Listener(48_000, 0)

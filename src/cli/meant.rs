@@ -1,0 +1,106 @@
+//! The command that was probably meant where the one given is none.
+
+use std::ffi::OsString;
+use std::path::Path;
+
+use clap::CommandFactory;
+
+use crate::audio;
+
+/// What to say of arguments that cannot be parsed, if it is clear what their user wants.
+pub(super) fn meant(arguments: &[OsString]) -> Option<String> {
+    let given: Vec<String> = arguments
+        .iter()
+        .skip(1)
+        .map(|a| a.to_string_lossy().into_owned())
+        .collect();
+    let recordings: Vec<&String> = given.iter().filter(|a| is_recording(a)).collect();
+    let first = given.first()?;
+    let command = super::Arguments::command();
+    let known = first == "help" || command.get_subcommands().any(|c| c.get_name() == first);
+    match (known, recordings.as_slice()) {
+        (false, []) => None,
+        (false, [one]) if Path::new(one.as_str()).is_dir() => Some(format!(
+            "a command is missing. To listen to all recordings in a folder: bounce-audio batch {}",
+            quoted(&given)
+        )),
+        (false, [_]) => Some(format!(
+            "a command is missing. To listen to a recording: bounce-audio analyze {}",
+            quoted(&given)
+        )),
+        (false, _) => Some(format!(
+            "a command is missing. To listen to several recordings: bounce-audio batch {}",
+            quoted(&given)
+        )),
+        (true, [_, _, ..]) if first == "analyze" => {
+            let recordings: Vec<String> = recordings.into_iter().cloned().collect();
+            Some(format!(
+                "analyze takes one recording. To listen to several: bounce-audio batch {}",
+                quoted(&recordings)
+            ))
+        }
+        (true, _) => None,
+    }
+}
+
+/// A file or folder that is there, or a name that ends as those of recordings do.
+fn is_recording(argument: &str) -> bool {
+    let path = Path::new(argument);
+    !argument.starts_with('-') && (path.exists() || audio::has_ending(path))
+}
+
+/// Arguments as a shell takes them.
+fn quoted(arguments: &[String]) -> String {
+    let plain = |c: char| c.is_alphanumeric() || "-_./=%,:@+".contains(c);
+    let one = |argument: &String| {
+        if !argument.is_empty() && argument.chars().all(plain) {
+            argument.clone()
+        } else {
+            format!("'{}'", argument.replace('\'', r"'\''"))
+        }
+    };
+    arguments.iter().map(one).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn said(line: &[&str]) -> Option<String> {
+        let line = ["bounce-audio"].iter().chain(line);
+        meant(&line.map(OsString::from).collect::<Vec<_>>())
+    }
+
+    #[test]
+    fn the_command_that_was_meant_is_offered_as_it_can_be_typed() {
+        for (line, offered) in [
+            (&["drop.wav"][..], "bounce-audio analyze drop.wav"),
+            (
+                &["--height", "30cm", "my drop.m4a"],
+                "bounce-audio analyze --height 30cm 'my drop.m4a'",
+            ),
+            (&["a.wav", "b.flac"], "bounce-audio batch a.wav b.flac"),
+            (&["src"], "bounce-audio batch src"),
+            (
+                &["analyze", "a.wav", "it's.wav", "-q"],
+                r"bounce-audio batch a.wav 'it'\''s.wav'",
+            ),
+        ] {
+            let said = said(line).unwrap();
+            assert!(said.ends_with(offered), "{said}");
+        }
+    }
+
+    #[test]
+    fn nothing_is_offered_where_nothing_is_clear() {
+        for line in [
+            &[][..],
+            &["anlyze"],
+            &["analyze"],
+            &["analyze", "a.wav", "--hieght", "1"],
+            &["solve", "a.wav", "b.wav"],
+        ] {
+            assert_eq!(said(line), None, "{line:?}");
+        }
+    }
+}
