@@ -29,6 +29,7 @@ mod company;
 mod copies;
 mod few;
 mod nothing;
+#[path = "../common/parallel.rs"]
 mod parallel;
 mod range;
 mod trial;
