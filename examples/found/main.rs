@@ -32,6 +32,7 @@ mod copies;
 mod curve;
 mod few;
 mod nothing;
+#[path = "../common/parallel.rs"]
 mod parallel;
 mod range;
 mod rebound;

@@ -16,24 +16,17 @@
 )]
 
 mod compare;
-#[path = "../found/parallel.rs"]
+#[path = "../common/parallel.rs"]
 mod parallel;
 mod recording;
 mod source;
+#[path = "../common/sources.rs"]
+mod sources;
 mod table;
 mod variants;
-
-use std::env;
-use std::path::PathBuf;
 
 use source::Source;
 
 fn main() {
-    let paths: Vec<PathBuf> = env::args_os().skip(1).map(PathBuf::from).collect();
-    let sources: Vec<Source> = if paths.is_empty() {
-        source::scenes().collect()
-    } else {
-        paths.into_iter().map(Source::File).collect()
-    };
-    table::print(&sources);
+    table::print(&sources::asked(source::scenes(), Source::File));
 }

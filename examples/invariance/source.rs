@@ -7,6 +7,7 @@ use bounce_audio::synth::render;
 use bounce_audio::synth::scene::preset;
 
 use super::recording::Recording;
+use super::sources::name;
 
 /// Scenes of all kinds of ball, surface, room and recorder; each is made with seed 1.
 const SCENES: [&str; 23] = [
@@ -50,11 +51,8 @@ pub(crate) fn scenes() -> impl Iterator<Item = Source> {
 impl Source {
     pub(crate) fn name(&self) -> String {
         match self {
-            Self::File(path) => path.file_name().map_or_else(
-                || path.display().to_string(),
-                |n| n.to_string_lossy().into_owned(),
-            ),
-            Self::Scene(name) => (*name).to_owned(),
+            Self::File(path) => name(path),
+            Self::Scene(scene) => (*scene).to_owned(),
         }
     }
 

@@ -6,6 +6,8 @@ use bounce_audio::audio::read_file;
 use bounce_audio::synth::render;
 use bounce_audio::synth::scene::{Scene, preset};
 
+use super::sources::name;
+
 /// Seeds of each scene.
 const SEEDS: u64 = 3;
 /// How unlike each other the impacts of the ball that wanders are, and each in both channels.
@@ -45,10 +47,7 @@ pub(crate) fn scenes() -> impl Iterator<Item = Source> {
 impl Source {
     pub(crate) fn name(&self) -> String {
         match self {
-            Self::File(path) => path.file_name().map_or_else(
-                || path.display().to_string(),
-                |n| n.to_string_lossy().into_owned(),
-            ),
+            Self::File(path) => name(path),
             Self::Scene(scene, seed) => format!("{}, seed {seed}", scene.name),
         }
     }

@@ -6,24 +6,15 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
 import { gzipSync } from "node:zlib";
-import { DIST, FIXTURES, analyzed, answer, browser, choose, document, folder, opened, served, synthesized } from "./page.mjs";
+import { DIST, FIXTURES, analyzed, answer, browser, choose, document, opened, stage } from "./page.mjs";
 
 const MOST_BYTES = 900_000;
 // The aim is 200 ms on a free machine; a busy one is slower, and a page that does twice the work is slower still.
 const MOST_MS = Number(process.env.MOST_MS ?? 1000);
-let site, chromium, place, wav;
+let site, chromium, place, wav, leave;
 
-before(async () => {
-  place = folder();
-  wav = synthesized(join(place.path, "drop.wav"), "pingpong");
-  site = await served();
-  chromium = await browser();
-});
-after(async () => {
-  await chromium?.close();
-  await site?.close();
-  place.remove();
-});
+before(async () => ({ place, wav, site, chromium, leave } = await stage("pingpong")));
+after(() => leave?.());
 
 test("the single file works from the disk, and asks for nothing", async () => {
   const context = await chromium.newContext();

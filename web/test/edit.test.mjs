@@ -4,21 +4,12 @@ import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, afterEach, before, beforeEach, test } from "node:test";
-import { analyzed, answer, browser, choose, document, folder, opened, saved, served, synthesized } from "./page.mjs";
+import { analyzed, answer, choose, document, opened, saved, stage } from "./page.mjs";
 
-let site, chromium, context, page, problems, place, wav;
+let site, chromium, context, page, problems, place, wav, leave;
 
-before(async () => {
-  place = folder();
-  wav = synthesized(join(place.path, "drop.wav"), "steel");
-  site = await served();
-  chromium = await browser();
-});
-after(async () => {
-  await chromium?.close();
-  await site?.close();
-  place.remove();
-});
+before(async () => ({ place, wav, site, chromium, leave } = await stage("steel")));
+after(() => leave?.());
 beforeEach(async () => {
   context = await chromium.newContext({ viewport: { width: 1000, height: 900 } });
   ({ page, problems } = await opened(context, site.origin));

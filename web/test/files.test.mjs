@@ -4,22 +4,13 @@ import assert from "node:assert/strict";
 import { readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { after, before, beforeEach, afterEach, test } from "node:test";
-import { FIXTURES, analyzed, answer, browser, choose, command, document, folder, opened, saved, served, synthesized } from "./page.mjs";
+import { FIXTURES, analyzed, answer, choose, command, document, opened, saved, stage, synthesized } from "./page.mjs";
 
 const SAME = 1e-9;
-let site, chromium, context, page, requests, problems, place, wav;
+let site, chromium, context, page, requests, problems, place, wav, leave;
 
-before(async () => {
-  place = folder();
-  wav = synthesized(join(place.path, "drop.wav"), "pingpong");
-  site = await served();
-  chromium = await browser();
-});
-after(async () => {
-  await chromium?.close();
-  await site?.close();
-  place.remove();
-});
+before(async () => ({ place, wav, site, chromium, leave } = await stage("pingpong")));
+after(() => leave?.());
 beforeEach(async () => {
   context = await chromium.newContext();
   ({ page, requests, problems } = await opened(context, site.origin));

@@ -80,6 +80,20 @@ export function folder() {
   return { path, remove: () => rmSync(path, { recursive: true }) };
 }
 
+// What tests need before they open a page: a folder with a recording of a preset, the page's server and a browser.
+export async function stage(preset) {
+  const place = folder();
+  const wav = synthesized(join(place.path, "drop.wav"), preset);
+  const site = await served();
+  const chromium = await browser();
+  const leave = async () => {
+    await chromium.close();
+    await site.close();
+    place.remove();
+  };
+  return { place, wav, site, chromium, leave };
+}
+
 export function command(...args) {
   return execFileSync(COMMAND, args, { encoding: "utf8" });
 }

@@ -88,8 +88,8 @@ impl<'a> Joint<'a> {
         }
     }
 
-    /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard error by rival places
-    /// that match nearly as well.
+    /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard
+    /// error by rival places that match nearly as well.
     pub(super) fn search_and_settle(&mut self) -> Vec<f64> {
         let mut ambiguities = vec![0.0; self.places.len()];
         let mut heads = self.heads();

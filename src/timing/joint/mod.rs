@@ -120,8 +120,8 @@ pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Vec<Im
     Some(timed(whitened.sound(), coarse, &started, &corrected))
 }
 
-/// The same with few jumps and without time walk, or as they are aligned where they are unlike, and their template: by it more of them
-/// are found.
+/// The same with few jumps and without time walk, or as they are aligned where they are unlike, and their template: by it more
+/// of them are found.
 pub(super) fn sketch(
     whitened: &Whitened<'_>,
     coarse: &[Impact],

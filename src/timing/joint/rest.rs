@@ -26,7 +26,8 @@ const SHARES: (f64, f64) = (0.5, 0.95);
 impl Joint<'_> {
     /// Times and template in turn until they rest. Gives the heads as they rest.
     ///
-    /// Where all moves are about the same share r of those of the round before, the rest of the way is
+    /// What all moves have in common is not gone: times and template leave it undetermined, and it would creep on for ever.
+    /// Where the moves beyond it are about the same share r of those of the round before, the rest of the way is
     /// `r + r² + … = r/(1 − r)` of the last ones (Aitken), and is gone at once.
     pub(super) fn rest(&mut self) -> Vec<Sample> {
         let count = self.places.len();
