@@ -2,11 +2,7 @@
 //!
 //! [`analyze`] takes samples in memory and a rate, and gives the drops that it hears: when the ball hit, the coefficient of
 //! restitution with its error, the model that the recording supports. [`Listener`] takes a recording of any length block by
-<<<<<<< HEAD
 //! block, [`Live`] tells each drop as it is played, and [`fit_times`] takes times alone. No file, thread, clock or terminal is
-=======
-//! block, [`Live`] tells each drop as it is played, and [`analyze_times`] takes times alone. No file, thread, clock or terminal is
->>>>>>> main
 //! touched in any of them.
 //!
 //! ```
@@ -35,11 +31,7 @@
 //!
 //! | feature | what it adds to the core |
 //! |---|---|
-<<<<<<< HEAD
 //! | | `analyze`, `fit_times`, `Listener`, `Live`, `Settings`; [`report`]: what was found, as data, and its text, JSON, CSV and labels; [`physics`]: flight, contact and the paper's equations |
-=======
-//! | | `analyze`, `analyze_times`, `Listener`, `Live`, `Settings`; [`report`]: what was found, as data, and its text, JSON, CSV and labels; [`physics`]: flight, contact and the paper's equations |
->>>>>>> main
 //! | `audio` | `audio`: files and pipes to samples (WAV, FLAC, MP3, MP4 and others); `recording`: from there to a report |
 //! | `plots` | `picture`: a report as SVG and PNG |
 //! | `lab` | `synth`: recordings with known truth |
@@ -122,11 +114,7 @@ pub use stages::*;
 #[expect(clippy::wildcard_imports, reason = "the list above is the only one")]
 use stages::*;
 
-<<<<<<< HEAD
 pub use analysis::{Listener, Live, Settings, Told, analyze, analyze_clearest, fit_times};
-=======
-pub use analysis::{Listener, Live, Settings, Told, analyze, analyze_clearest, analyze_times};
->>>>>>> main
 pub use error::Error;
 pub use fit::model_selection::Choice as ModelChoice;
 pub use report::{Analysis, Drop, Report, Warning, WarningCode};

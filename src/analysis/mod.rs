@@ -26,11 +26,7 @@ pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
 pub use listener::Listener;
 pub use live::{Live, Told};
-<<<<<<< HEAD
 pub use times::fit_times;
-=======
-pub use timed::analyze_times;
->>>>>>> main
 
 use crate::Error;
 use crate::report::{Analysis, RejectReason, Rejected};

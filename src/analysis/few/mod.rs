@@ -78,7 +78,6 @@ pub(super) fn heard(
         impacts: found.impacts.iter().map(impact).collect(),
         rejected: Vec::new(),
     };
-<<<<<<< HEAD
     let sound = stretch.whitened(&chain);
     let timed = stretch.timed(&chain, &sound, settings.timing);
     let timed = timed
@@ -87,11 +86,6 @@ pub(super) fn heard(
     let chain = Chain {
         impacts: timed.collect(),
         ..chain
-=======
-    let followed = Followed {
-        sound: stretch.whitened(&chain),
-        chain,
->>>>>>> main
     };
     let measured = drop::fit(stretch, chain, channel, settings)?;
     Ok(Some(Heard { found, measured }))
