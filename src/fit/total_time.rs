@@ -85,14 +85,17 @@ pub fn solve(drop: &TimedDrop<'_>) -> Result<Result<TotalTime, Missing>, Error> 
     let mut total_time_s = series.first_fall_s() + observed;
     let mut root = None;
     // The last contact is that of (20), which depends on e: each round changes it by dΔT/de·de, far below itself.
-    for _ in 0..CONTACT_ROUNDS {
+    for _ in 0..LIMIT {
         root = series
             .restitution_from_total_time(bounces, total_time_s)
             .ok();
         let Some(found) = root else { break };
-        total_time_s = series.first_fall_s()
-            + observed
-            + series.rest_contact_time_s(found.restitution, bounces)?;
+        let rest_contact_s = series.rest_contact_time_s(found.restitution, bounces)?;
+        let before_s = total_time_s;
+        total_time_s = series.first_fall_s() + observed + rest_contact_s;
+        if (total_time_s - before_s).abs() <= REST * total_time_s {
+            break;
+        }
     }
     let std_s = error_s(drop);
     let freedom = real(drop.flights.ln_ratios().len().saturating_sub(1));
@@ -125,8 +128,10 @@ pub fn solve(drop: &TimedDrop<'_>) -> Result<Result<TotalTime, Missing>, Error> 
     }))
 }
 
-/// Rounds in which the last contact converges.
-const CONTACT_ROUNDS: usize = 6;
+/// The last contact has converged once the total time changes by no more than this share of itself: rounding.
+const REST: f64 = 1e-14;
+/// Rounds at most, where rounding never lets it rest.
+const LIMIT: usize = 30;
 
 /// √(h1/h0): e of the first impact, drag of the first fall included; none if the first flight was not heard whole.
 ///

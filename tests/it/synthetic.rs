@@ -254,8 +254,7 @@ fn the_end_of_a_soft_ball_whose_slow_impacts_match_late_is_found() {
 fn a_drop_goes_on_behind_knocks_much_louder_than_its_impacts() {
     let (found, made) = found_in("knocks", 5);
     let audible = made.truth.drops[0].audible.iter().filter(|&&a| a).count();
-    // At the faint end one may be timed 2 ms off, which counts as another.
-    assert!(found.spurious <= 1, "{} spurious", found.spurious);
+    assert_eq!(found.spurious, 0);
     assert!(found.errors_s.len() + 3 >= audible, "{:?}", found.missed);
 }
 

@@ -12,8 +12,10 @@ const MOST: usize = 4;
 const DROPS_EACH: usize = 2;
 /// Fewest drops of a curve.
 const FEWEST: usize = 3;
-/// Rounds in which the scatter and the curve learn from each other: after the third neither moves by a thousandth.
-const ROUNDS: usize = 4;
+/// The scatter and the curve learn from each other until no scatter changes by more than this share of itself (convention).
+const REST: f64 = 1e-3;
+/// Rounds at most: a scatter near 0 halves for ever.
+const LIMIT: usize = 50;
 /// Greatest scatter of e from bounce to bounce that is looked for, and between drops.
 const MOST_SCATTER: f64 = 0.5;
 
@@ -98,17 +100,17 @@ impl Curve {
         let size = (1 + (by_drop.len() - 1) / DROPS_EACH).min(MOST);
         let mut scatter = Scatter::default();
         let mut whole = [0.0; MOST];
-        for _ in 0..ROUNDS {
+        for _ in 0..LIMIT {
             let equations: Vec<Equations> = by_drop
                 .iter()
                 .map(|d| scatter.equations(d, scale))
                 .collect();
             whole = solved(&equations, None, size)?;
-            scatter = Scatter::of(
-                &by_drop,
-                &|p| p.restitution - value(&whole, size, scale, p.ln_speed),
-                size,
-            );
+            let residual = |p: &Point| p.restitution - value(&whole, size, scale, p.ln_speed);
+            let before = std::mem::replace(&mut scatter, Scatter::of(&by_drop, &residual, size));
+            if scatter.is_as(before) {
+                break;
+            }
         }
         let equations: Vec<Equations> = by_drop
             .iter()
@@ -226,6 +228,12 @@ impl Scatter {
             0.0
         };
         Self { bounce, drop }
+    }
+
+    /// Whether neither part differs much from that of another.
+    fn is_as(self, other: Self) -> bool {
+        let near = |now: f64, then: f64| (now - then).abs() <= REST * now;
+        near(self.bounce, other.bounce) && near(self.drop, other.drop)
     }
 
     /// The normal equations of a drop: of `Σ + τ²·11ᵀ` the inverse by Sherman and Morrison.

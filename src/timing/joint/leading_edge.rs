@@ -10,8 +10,10 @@ use crate::units::{real, samples_in};
 const PEAK_WITHIN_S: f64 = 2e-3;
 /// An edge starts this long before the onset, in seconds.
 const LEAD_S: f64 = 0.5e-3;
-/// Rounds of alignment. In half of all drops the edges do not converge: one unlike the others moves on.
-const ROUNDS: usize = 12;
+/// Edges rest once none that is clear moves by more than this share of its standard error, against the others (convention).
+const REST: f64 = 0.1;
+/// Rounds at most: a bound for edges that are hardly clear, which may come to rest very slowly.
+const LIMIT: usize = 100;
 
 /// Samples of an edge before the onset.
 fn lead(joint: &Joint<'_>) -> usize {
@@ -44,6 +46,8 @@ pub(super) struct LeadingEdges {
     pub length: usize,
     /// Standard deviations of the noise by which an edge has to stand out.
     clear: f64,
+    /// Whether an edge is still where its sound begins. One unlike the others would move on for ever, and the mean with it.
+    begins: Vec<bool>,
 }
 
 impl LeadingEdges {
@@ -56,6 +60,7 @@ impl LeadingEdges {
         Some(Self {
             positions: vec![first; sounds.len()],
             amplitudes: joint.places.iter().map(|i| i.amplitude).collect(),
+            begins: vec![true; sounds.len()],
             origins: joint.places.iter().map(|i| i.position).collect(),
             sounds,
             first,
@@ -67,37 +72,45 @@ impl LeadingEdges {
 
     /// Positions in the stretch and their standard errors, in samples, of those that are clear.
     pub(super) fn aligned(&mut self) -> Vec<Option<(f64, f64)>> {
-        let noise = vec![1.0; self.length];
         let mut stds = vec![f64::INFINITY; self.sounds.len()];
-        for _ in 0..ROUNDS {
-            let cuts = self.cuts();
-            let shape = mean(&cuts);
-            let slopes = slope(&shape);
-            let mut moves = Vec::with_capacity(cuts.len());
-            for (i, cut) in cuts.iter().enumerate() {
-                let normal = NormalEquations::of(&cut.sound, &noise, &shape, &slopes);
-                let (amplitude, moved, std) = normal.solve(self.amplitudes[i]);
-                self.amplitudes[i] = amplitude.max(0.3 * self.amplitudes[i]);
-                let is_clear = normal.clearness(amplitude) >= self.clear;
-                stds[i] = if is_clear { std } else { f64::INFINITY };
-                moves.push(moved.clamp(-1.0, 1.0));
-            }
-            let (sum, weight) = moves
-                .iter()
-                .zip(&stds)
-                .fold((0.0, 0.0), |(s, w), (m, std)| {
-                    (s + m / (std * std), w + 1.0 / (std * std))
-                });
+        for _ in 0..LIMIT {
+            let moves = self.moves(&mut stds);
+            let weighted = moves.iter().zip(&stds).map(|(m, std)| (m, std.powi(-2)));
+            let (sum, weight) = weighted.fold((0.0, 0.0), |(s, w), (m, by)| (s + m * by, w + by));
             // Matching with their own mean leaves a shift that is common to all unmeasured.
             let common = if weight > 0.0 { sum / weight } else { 0.0 };
-            for (p, m) in self.positions.iter_mut().zip(&moves) {
+            for ((p, begins), m) in self.positions.iter_mut().zip(&mut self.begins).zip(&moves) {
                 *p += m - common;
+                *begins &= (*p - self.first).abs() <= real(self.lead);
+            }
+            let mut each = moves.iter().zip(&stds);
+            if each.all(|(m, std)| (m - common).abs() <= REST * std) {
+                break;
             }
         }
         let moved = self.positions.iter().map(|p| p - self.first);
         let places = self.origins.iter().zip(moved).map(|(o, m)| o + m);
         let clear = |(place, std): (f64, f64)| std.is_finite().then_some((place, std));
         places.zip(stds).map(clear).collect()
+    }
+
+    /// One step of all edges towards their mean, in samples; their standard errors, infinite where an edge is not clear.
+    fn moves(&mut self, stds: &mut [f64]) -> Vec<f64> {
+        let noise = vec![1.0; self.length];
+        let cuts = self.cuts();
+        let beginning = cuts.iter().zip(&self.begins).filter(|(_, begins)| **begins);
+        let shape = mean(&beginning.map(|(cut, _)| cut.clone()).collect::<Vec<Cut>>());
+        let slopes = slope(&shape);
+        let mut moves = Vec::with_capacity(cuts.len());
+        for (i, cut) in cuts.iter().enumerate() {
+            let normal = NormalEquations::of(&cut.sound, &noise, &shape, &slopes);
+            let (amplitude, moved, std) = normal.solve(self.amplitudes[i]);
+            self.amplitudes[i] = amplitude.max(0.3 * self.amplitudes[i]);
+            let is_clear = self.begins[i] && normal.clearness(amplitude) >= self.clear;
+            stds[i] = if is_clear { std } else { f64::INFINITY };
+            moves.push(moved.clamp(-1.0, 1.0));
+        }
+        moves
     }
 
     /// The edges at their positions.
