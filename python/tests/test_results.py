@@ -102,7 +102,7 @@ def test_times_alone_give_e(report: Report) -> None:
     assert drop.restitution.value == pytest.approx(heard.value, abs=1e-4)
     assert drop.evidence_nats is None and np.isnan(drop.impacts["level_db"]).all()
     for times, errors, said in [
-        ([1.0], 1e-3, "number of times is 1"),
+        ([1.0], 1e-3, "times is 1 in drop 1"),
         ([2.0, 1.0], 1e-3, "after the one before"),
         ([1.0, 2.0], 0.0, "error of a time"),
         ([1.0, 2.0], [1e-3] * 3, "errors have shape"),

@@ -32,8 +32,10 @@ __all__ = [
     "Model",
     "ModelCandidate",
     "Parameters",
+    "Rebound",
     "Recording",
     "Rejected",
+    "Release",
     "Report",
     "Restitution",
     "RuleReport",
@@ -102,6 +104,8 @@ class SettingsUsed(Document):
     start_s: float | None
     end_s: float | None
     timing: str
+    time_scale: float
+    clock_std: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,6 +242,25 @@ class Rejected(Document):
 
 
 @dataclass(frozen=True, eq=False)
+class Rebound(Document):
+    """The rebound after the first impact: heights in metres, e, and resilience, the share of the height that is kept."""
+
+    drop_height_m: float
+    impact_speed_m_per_s: float
+    height_m: Estimate
+    restitution: Estimate
+    resilience: Estimate
+
+
+@dataclass(frozen=True, eq=False)
+class Release(Document):
+    """The release by the first flights: its height under the gravity of the settings, and gravity by their height."""
+
+    height_m: Estimate
+    gravity_m_per_s2: Estimate | None
+
+
+@dataclass(frozen=True, eq=False)
 class Drop(Document):
     """One drop. `restitution.value` is the answer, `impacts` an array with a row for each impact (see `IMPACT`)."""
 
@@ -248,6 +271,10 @@ class Drop(Document):
     total_time_s: float | None
     restitution: Restitution | None
     estimates: Estimates
+    #: None without a height, or where the first flight does not fit it.
+    first_rebound: Rebound | None
+    #: None where the first flights do not tell.
+    release: Release | None
     scatter: Scatter
     model: Model
     ball: Ball | None
@@ -306,10 +333,12 @@ class Candidate(Document):
 
 @dataclass(frozen=True, eq=False)
 class Judged(Document):
-    """The verdict of a rule on one drop: "pass", "fail" or "undecided", and the rebound predicted."""
+    """The verdict of a rule on one drop: "pass", "fail" or "undecided", and the rebound that it rests on (`evidence`)."""
 
     outcome: str
+    evidence: str
     rebound_m: Estimate | None
+    fitted_rebound_m: Estimate | None
     single_rebound_std_m: float | None
     impact_speed_m_per_s: float
     restitution: float | None
