@@ -103,7 +103,7 @@ def test_times_alone_give_e(report: Report) -> None:
     assert drop.evidence_nats is None and np.isnan(drop.impacts["level_db"]).all()
     for times, errors, said in [
         ([1.0], 1e-3, "times is 1 in drop 1"),
-        ([2.0, 1.0], 1e-3, "after the one before"),
+        ([2.0, 1.0], 1e-3, "expected times that grow"),
         ([1.0, 2.0], 0.0, "error of a time"),
         ([1.0, 2.0], [1e-3] * 3, "errors have shape"),
         ([[1.0], [2.0]], 1e-3, "times have shape"),
