@@ -14,12 +14,14 @@
 //! Sounds that are alike are placed a hundred times better by their [common template](super::joint).
 
 mod bands;
+mod focus;
 mod fusion;
 mod rise;
 
 use bands::Windows;
+use focus::Focus;
 use fusion::Posterior;
-use rise::{Likelihood, Rise};
+use rise::{Likelihoods, Rise};
 
 use super::joint::Prior;
 use crate::statistics::upper_median;
@@ -60,22 +62,30 @@ pub(super) fn onsets(sound: &[f64], rate: f64, priors: &[Prior]) -> Vec<Prior> {
 }
 
 /// The posteriors in windows, and the rises of all bands, learnt in turn from those given until no onset moves.
+///
+/// A round looks only where something was likely before; what rests so has to rest where all is looked at.
 fn learnt(windows: &Windows, mut rises: Vec<Rise>, rate: f64) -> (Vec<Posterior>, Vec<Rise>) {
-    let mut posteriors: Vec<Posterior> = Vec::new();
-    let mut likelihoods: Vec<Vec<Likelihood>> = Vec::new();
+    let everywhere = Focus::whole(windows);
+    let each = rises.iter().zip(&windows.bands);
+    let mut likelihoods: Vec<Likelihoods> = each.map(|(r, b)| r.likelihoods(b, windows)).collect();
+    let (mut posteriors, mut trials) = fusion::fuse(&likelihoods, windows, rate, &everywhere);
+    let mut rested = false;
     for _ in 0..LIMIT {
-        let each = rises.iter().zip(&windows.bands).enumerate();
-        let now = each.map(|(k, (r, b))| r.likelihoods(b, windows, likelihoods.get(k)));
-        likelihoods = now.collect();
-        let now = fusion::fuse(&likelihoods, windows, rate);
-        let rests = rest(&posteriors, &now);
-        posteriors = now;
-        if rests {
-            break;
-        }
-        for ((rise, band), l) in rises.iter_mut().zip(&windows.bands).zip(&likelihoods) {
+        for ((rise, band), l) in rises.iter_mut().zip(&windows.bands).zip(&mut likelihoods) {
             rise.learn(band, l, windows, &posteriors);
         }
+        let near = Focus::on(&posteriors, &trials);
+        let focus = if rested { &everywhere } else { &near };
+        for ((rise, band), l) in rises.iter().zip(&windows.bands).zip(&mut likelihoods) {
+            rise.relook(band, windows, focus, l);
+        }
+        let now = fusion::fuse(&likelihoods, windows, rate, focus);
+        let rests = rest(&posteriors, &now.0);
+        (posteriors, trials) = now;
+        if rested && rests {
+            break;
+        }
+        rested = rests;
     }
     (posteriors, rises)
 }

@@ -1,6 +1,7 @@
 //! The rise of energy at an onset in one band: what all impacts have in common of it, learnt from them.
 
 use super::bands::{AFTER_S, Band, FOOT_S, Window, Windows};
+use super::focus::Focus;
 use super::fusion::Posterior;
 use crate::signal::logarithm::ln_from_one;
 use crate::units::{real, samples_in};
@@ -48,7 +49,14 @@ pub(super) struct Rise {
     certain: f64,
 }
 
-/// Log-likelihood of each place of one impact's grid, and what fits there.
+/// What a band says of all impacts.
+#[derive(Debug)]
+pub(super) struct Likelihoods {
+    pub kappa: f64,
+    pub of: Vec<Likelihood>,
+}
+
+/// Log-likelihood with κ = 1 of each place of one impact's grid, and what fits there.
 #[derive(Debug)]
 pub(super) struct Likelihood {
     pub ln: Vec<f64>,
@@ -112,27 +120,42 @@ impl Rise {
         }
     }
 
-    /// The likelihoods of all impacts, from the sizes that fitted before, if any.
-    pub(super) fn likelihoods(
-        &self,
-        band: &Band,
-        windows: &Windows,
-        before: Option<&Vec<Likelihood>>,
-    ) -> Vec<Likelihood> {
-        let each = windows.of.iter().zip(&band.sums).enumerate();
-        let of = each.map(|(i, (window, sums))| {
-            let places = 0..=2 * window.reach;
-            let before = before.map(|b| &b[i].fits);
-            let at = places.map(|place| {
+    /// The likelihoods of all impacts.
+    pub(super) fn likelihoods(&self, band: &Band, windows: &Windows) -> Likelihoods {
+        let each = windows.of.iter().zip(&band.sums);
+        let of = each.map(|(window, sums)| {
+            let at = (0..=2 * window.reach).map(|place| {
                 let onset = window.onset(place, windows);
-                let size = before.map(|fits| fits[place].size);
-                let (ln, fit) = self.at((band.noise, window, sums), onset, size);
-                (self.kappa * ln, fit)
+                self.at((band.noise, window, sums), onset, None)
             });
             let (ln, fits) = at.unzip();
             Likelihood { ln, fits }
         });
-        of.collect()
+        Likelihoods {
+            kappa: self.kappa,
+            of: of.collect(),
+        }
+    }
+
+    /// The same at the places in focus, from the sizes that fitted before.
+    pub(super) fn relook(
+        &self,
+        band: &Band,
+        windows: &Windows,
+        focus: &Focus,
+        likelihoods: &mut Likelihoods,
+    ) {
+        likelihoods.kappa = self.kappa;
+        let each = windows.of.iter().zip(&band.sums).zip(&focus.places);
+        for (((window, sums), places), known) in each.zip(&mut likelihoods.of) {
+            for place in places.clone() {
+                let onset = window.onset(place, windows);
+                let before = Some(known.fits[place].size);
+                let (ln, fit) = self.at((band.noise, window, sums), onset, before);
+                known.ln[place] = ln;
+                known.fits[place] = fit;
+            }
+        }
     }
 
     /// Log-likelihood with κ = 1, and the fit, for an onset at an index of the sums, from the size that fitted before.
@@ -207,13 +230,13 @@ impl Rise {
     pub(super) fn learn(
         &mut self,
         band: &Band,
-        likelihoods: &[Likelihood],
+        likelihoods: &Likelihoods,
         windows: &Windows,
         now: &[Posterior],
     ) {
         let mut lesson = Lesson::default();
         for (((l, w), sums), posterior) in
-            (likelihoods.iter().zip(&windows.of).zip(&band.sums)).zip(now)
+            (likelihoods.of.iter().zip(&windows.of).zip(&band.sums)).zip(now)
         {
             let sure = 1.0 / (1.0 + (posterior.std / self.certain).powi(2));
             let likely = posterior.p.iter().enumerate();
