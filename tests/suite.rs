@@ -79,7 +79,8 @@ const OWED: [(&str, &str, f64); 6] = [
     ("caught", "timing_error_median_s", 9e-7),
     // Two of 83 impacts, the last of a ring that lasts far longer than their flights.
     ("plate", "recall", 0.97),
-    ("squash", "timing_error_median_s", 1.1e-6),
+    // One of two recordings; over 24 other seeds it is 5.4e-7.
+    ("squash", "timing_error_median_s", 1.3e-6),
     ("stone", "timing_error_median_s", 4.6e-7),
     ("three-drops", "timing_error_median_s", 5.8e-6),
 ];
