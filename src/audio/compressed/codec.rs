@@ -25,7 +25,7 @@ impl Decoder {
     /// # Errors
     /// [`Error::Recording`] with the command that converts it, if there is none.
     pub(super) fn new(params: &AudioCodecParameters, ending: &'static str) -> Result<Self, Error> {
-        // What an encoder added before the first sample goes, where the container says how much it is.
+        // The first packet of a Vorbis readies the next and gives nothing; what an encoder added is left out later (`stream`).
         let options = AudioDecoderOptions::default().gapless(true);
         let (made, name, is_lossy) = match params.codec {
             CODEC_ID_AAC => (

@@ -14,6 +14,7 @@ use symphonia::core::units::{Duration, Timestamp};
 use super::codec::Decoder;
 use super::header::{self, Format, HEADER_BYTES, Header, MOST_BYTES, Parse};
 use super::source::Source;
+use super::start::{Span, Start};
 use super::{Next, Opened, Packets};
 use crate::Error;
 use crate::audio::content::Refused;
@@ -63,16 +64,16 @@ struct Frames<'s> {
     sure: (u64, u64),
     /// Bytes since the end of the last of these, and frames that were given of them.
     since: (u64, u64),
-    /// Samples that the encoder put before the first.
-    delay: u64,
 }
 
 /// Opens a stream of frames of MP3.
 pub(super) fn mp3(source: Source<'_>) -> Result<Opened<'_>, Error> {
     let mut frames = Frames::open(source, header::mp3, "MP3")?;
     let first = frames.first()?;
+    let mut start = Start::default();
     if let Some(delay) = header::note(frames.window.look(0, first.bytes)?, frames.format) {
-        frames.delay = delay.into();
+        let hidden = Span::new(delay.into(), frames.format.sample_rate_hz);
+        start.hidden = hidden.unwrap_or(start.hidden);
         frames.window.take(first.bytes);
     }
     let mut params = AudioCodecParameters::new();
@@ -81,6 +82,7 @@ pub(super) fn mp3(source: Source<'_>) -> Result<Opened<'_>, Error> {
     Ok(Opened {
         packets: Box::new(frames),
         decoder,
+        start,
     })
 }
 
@@ -105,6 +107,7 @@ pub(super) fn adts(source: Source<'_>) -> Result<Opened<'_>, Error> {
     Ok(Opened {
         packets: Box::new(frames),
         decoder,
+        start: Start::default(),
     })
 }
 
@@ -127,7 +130,6 @@ impl<'s> Frames<'s> {
                     format,
                     sure: (0, 0),
                     since: (0, 0),
-                    delay: 0,
                 });
             }
             if window.look(0, 1)?.is_empty() {
@@ -222,15 +224,12 @@ impl Packets for Frames<'_> {
             self.since = (self.since.0 + header.bytes as u64, self.since.1 + 1);
         }
         let samples = u64::from(self.format.samples);
-        let trimmed = self.delay.min(samples);
-        self.delay -= trimmed;
-        let mut packet = PacketBuilder::new()
+        let packet = PacketBuilder::new()
             .track_id(0)
             .pts(Timestamp::ZERO)
-            .dur(Duration::new(samples - trimmed))
+            .dur(Duration::new(samples))
             .data(data)
             .build();
-        packet.trim_start = Duration::new(trimmed);
         Ok(Next::Packet {
             packet,
             lost: lost * samples,

@@ -7,10 +7,14 @@ use symphonia::core::codecs::audio::{AudioCodecParameters, CODEC_ID_NULL_AUDIO};
 use symphonia::core::errors::Error as Problem;
 use symphonia::core::formats::{FormatOptions, FormatReader};
 use symphonia::core::io::ReadBytes;
+use symphonia::core::units::Duration;
 use symphonia::default::formats::{FlacReader, IsoMp4Reader};
 
 use super::codec::Decoder;
+use super::edits::Edits;
+use super::index::index;
 use super::source::Source;
+use super::start::Start;
 use super::{Next, Opened, Packets};
 use crate::Error;
 use crate::audio::content::Refused;
@@ -29,11 +33,14 @@ struct Indexed<'s> {
 /// Opens an MP4 at its beginning.
 pub(super) fn mp4(source: Source<'_>) -> Result<Opened<'_>, Error> {
     let is_pipe = matches!(source, Source::Pipe(_));
+    let (index, source) = index(source)?;
+    let edits = Edits::of(&index);
+    drop(index);
     let mut media = source.into_media();
     // Its type stands behind a length, which the reader goes back for.
     media.ignore_bytes(4)?;
     match IsoMp4Reader::try_new(media, FormatOptions::default()) {
-        Ok(reader) => opened(Box::new(reader), "mp4", false),
+        Ok(reader) => opened(Box::new(reader), "mp4", false, &edits),
         Err(problem) if !is_without_index(&problem) => Err(broken(problem, "MP4")),
         Err(_) if is_pipe => Err(unreadable(
             "its index (moov) stands behind its sound, where a pipe cannot look first, or is missing: give the file itself, \
@@ -58,7 +65,7 @@ fn is_without_index(problem: &Problem) -> bool {
 pub(super) fn flac(source: Source<'_>) -> Result<Opened<'_>, Error> {
     let media = source.into_media();
     match FlacReader::try_new(media, FormatOptions::default()) {
-        Ok(reader) => opened(Box::new(reader), "flac", true),
+        Ok(reader) => opened(Box::new(reader), "flac", true, &Edits::default()),
         Err(problem) => Err(broken(problem, "FLAC")),
     }
 }
@@ -67,6 +74,7 @@ fn opened<'s>(
     reader: Box<dyn FormatReader + 's>,
     ending: &'static str,
     placed: bool,
+    edits: &Edits,
 ) -> Result<Opened<'s>, Error> {
     let none = || {
         unreadable(
@@ -79,6 +87,9 @@ fn opened<'s>(
     };
     let (track, params) = sound(&*reader).ok_or_else(none)?;
     let decoder = Decoder::new(&params, ending)?;
+    let start = edits.start(track);
+    let is_within = lasts(&*reader, track).is_none_or(|units| start.hidden.units() < units);
+    let start = if is_within { start } else { Start::default() };
     let expected = None;
     let packets = Box::new(Indexed {
         reader,
@@ -86,7 +97,11 @@ fn opened<'s>(
         expected,
         placed,
     });
-    Ok(Opened { packets, decoder })
+    Ok(Opened {
+        packets,
+        decoder,
+        start,
+    })
 }
 
 /// The first stream of sound, one of a known codec if there is one.
@@ -100,6 +115,12 @@ fn sound(reader: &dyn FormatReader) -> Option<(u32, AudioCodecParameters)> {
         });
     let unknown = |(_, params): &(u32, AudioCodecParameters)| params.codec == CODEC_ID_NULL_AUDIO;
     audio.min_by_key(unknown)
+}
+
+/// How long a stream lasts in its own units, if its container says so.
+fn lasts(reader: &dyn FormatReader, track: u32) -> Option<u64> {
+    let track = reader.tracks().iter().find(|of| of.id == track)?;
+    track.duration.map(Duration::get).filter(|units| *units > 0)
 }
 
 fn broken(problem: Problem, name: &str) -> Error {
@@ -131,7 +152,7 @@ impl Packets for Indexed<'_> {
                 .map_or(0, |expected| begins.saturating_sub(expected));
             let lasts = i64::try_from(packet.dur.get()).unwrap_or(i64::MAX);
             self.expected = self.placed.then(|| begins.saturating_add(lasts));
-            packet.trim_end = symphonia::core::units::Duration::ZERO;
+            packet.trim_end = Duration::ZERO;
             let lost = u64::try_from(late).unwrap_or(0);
             return Ok(Next::Packet { packet, lost });
         }

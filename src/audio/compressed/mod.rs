@@ -4,18 +4,22 @@
 //! ([`pages`]) are found here: where some are damaged, it has to be known how much sound they held, so that what comes
 //! later keeps its time. What is lost becomes silence ([`stream`]).
 //!
-//! Encoders put a little before the first sample (of MP3 576 samples and more, of AAC 1024 or 2112). Where an MP3 or an
-//! Ogg says how much, it is left out; an AAC keeps it, and all its times are later by so much. What was added at the end
-//! stays: no header's word shortens a recording.
+//! Encoders put a little before the first sample (of MP3 576 samples and more, of AAC 1024 or 2112). Where an MP3, an Ogg or
+//! the edit list of an MP4 ([`edits`]) says how much, it is left out; frames of AAC by themselves keep it, and all their times
+//! are later by so much. What was added at the end stays: no header's word shortens a recording.
 
 mod codec;
+mod edits;
 mod frames;
 mod guard;
 mod header;
+mod index;
 mod indexed;
+mod losses;
 mod opening;
 mod pages;
 mod source;
+mod start;
 mod stream;
 
 pub use guard::is_guarded;
@@ -26,6 +30,7 @@ use symphonia::core::packet::Packet;
 
 use crate::Error;
 use codec::Decoder;
+use start::Start;
 
 /// Takes a container apart.
 trait Packets: Send + Sync {
@@ -56,4 +61,5 @@ enum Next {
 struct Opened<'s> {
     packets: Box<dyn Packets + 's>,
     decoder: Decoder,
+    start: Start,
 }

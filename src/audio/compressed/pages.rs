@@ -14,6 +14,7 @@ use symphonia::core::units::{Duration, Timestamp};
 
 use super::codec::Decoder;
 use super::source::Source;
+use super::start::Start;
 use super::{Next, Opened, Packets};
 use crate::Error;
 use crate::audio::unreadable;
@@ -74,6 +75,7 @@ pub(super) fn vorbis(source: Source<'_>) -> Result<Opened<'_>, Error> {
     Ok(Opened {
         packets: Box::new(pages),
         decoder,
+        start: Start::default(),
     })
 }
 

@@ -2,6 +2,7 @@
 
 use std::io::{self, Read, Seek, SeekFrom};
 
+use super::index::{HEAD_BYTES, Head, MOST_ATOMS};
 use symphonia::core::io::{MediaSource, MediaSourceStream, ReadOnlySource};
 
 /// Bytes that can only be read forwards, or anywhere.
@@ -62,26 +63,19 @@ impl<R: Read> Read for Patient<R> {
 
 /// Where the last of the atoms ends that follow each other from the beginning.
 fn end_of_atoms(source: &mut (impl Read + Seek), there: u64) -> io::Result<u64> {
-    /// As many as there may be: an hour in fragments of half a second has 14,400.
-    const MOST_ATOMS: usize = 1 << 20;
     let mut at = 0;
     for _ in 0..MOST_ATOMS {
         source.seek(SeekFrom::Start(at))?;
         let mut head = Vec::new();
-        source.by_ref().take(16).read_to_end(&mut head)?;
-        let short = head
-            .first_chunk()
-            .map_or(0, |l| u64::from(u32::from_be_bytes(*l)));
-        let long = head.get(8..).and_then(|l| l.first_chunk());
-        let length = match (short, long) {
-            (1, Some(long)) => u64::from_be_bytes(*long),
-            _ => short,
+        source.by_ref().take(HEAD_BYTES).read_to_end(&mut head)?;
+        let Some(length) = Head::of(&head).and_then(|head| head.length) else {
+            return Ok(at);
         };
-        // Zero is one that goes to the end.
-        if length < 8 || at.saturating_add(length) >= there {
-            return Ok(at.saturating_add(length).min(u64::MAX / 2));
+        let end = at.saturating_add(length);
+        if end >= there {
+            return Ok(end.min(u64::MAX / 2));
         }
-        at += length;
+        at = end;
     }
     Ok(at)
 }

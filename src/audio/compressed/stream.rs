@@ -7,14 +7,15 @@ use symphonia::core::packet::Packet;
 
 use super::codec::Decoder;
 use super::guard::guarded;
+use super::losses::{Losses, real_s};
 use super::opening::open;
 use super::source::Source;
+use super::start::Start;
 use super::{Next, Opened, Packets};
 use crate::Error;
 use crate::audio::content::Content;
 use crate::audio::wav::zero_what_is_not_finite;
 use crate::audio::{Ending, unreadable};
-use crate::units::real;
 
 /// Frames of silence that are handed over at a time.
 const BLOCK: u64 = 4_096;
@@ -36,6 +37,9 @@ pub(in crate::audio) struct Stream<'s> {
     is_estimate: bool,
     sample_rate_hz: u32,
     channels: usize,
+    start: Start,
+    /// Frames at the head of the stream that are yet to be left out.
+    hidden: u64,
     /// Frames of silence, and after them samples, that are yet to be handed over.
     silence: u64,
     ready: Vec<Vec<f32>>,
@@ -48,21 +52,6 @@ pub(in crate::audio) struct Stream<'s> {
     usual: u64,
     losses: Losses,
     end: Option<Next>,
-}
-
-/// What was lost.
-#[derive(Debug, Default)]
-struct Losses {
-    /// How many times.
-    times: u64,
-    /// Frames of silence for it.
-    frames: u64,
-    /// Where the first begins.
-    first: u64,
-    /// Samples that are no numbers.
-    not_finite: usize,
-    /// Whether there was more than what silence can stand for.
-    too_long: bool,
 }
 
 impl fmt::Debug for Stream<'_> {
@@ -81,7 +70,11 @@ impl<'s> Stream<'s> {
     pub(in crate::audio) fn open(content: Content, source: Source<'s>) -> Result<Self, Error> {
         let broken = || unreadable("its header is damaged beyond what can be read");
         let opened = guarded(|| open(content, source)).ok_or_else(broken)?;
-        let Opened { packets, decoder } = opened?;
+        let Opened {
+            packets,
+            decoder,
+            start,
+        } = opened?;
         let mut stream = Self {
             packets,
             decoder,
@@ -89,6 +82,8 @@ impl<'s> Stream<'s> {
             is_estimate: matches!(content, Content::Mp3 | Content::Adts | Content::Tagged),
             sample_rate_hz: 0,
             channels: 0,
+            start,
+            hidden: 0,
             silence: 0,
             ready: Vec::new(),
             frames: 0,
@@ -98,9 +93,13 @@ impl<'s> Stream<'s> {
             losses: Losses::default(),
             end: None,
         };
-        while stream.channels == 0 {
+        while stream.channels == 0 || stream.hidden > 0 {
             if stream.end.is_some() {
-                return Err(unreadable("none of its sound could be decoded"));
+                return Err(unreadable(if stream.channels == 0 {
+                    "none of its sound could be decoded"
+                } else {
+                    "it ends before the place where its edit list begins"
+                }));
             }
             stream.step()?;
         }
@@ -196,28 +195,60 @@ impl<'s> Stream<'s> {
         };
         let frames = decoded.frames();
         let (rate, channels) = (decoded.spec().rate(), decoded.num_planes());
+        let mut planes: Vec<Vec<f32>> = Vec::new();
+        decoded.copy_to_vecs_planar(&mut planes);
         if self.channels == 0 {
             (self.sample_rate_hz, self.channels) = (rate, channels);
             self.ready = vec![Vec::new(); channels];
+            self.begin();
         } else if (rate, channels) != (self.sample_rate_hz, self.channels) {
             self.end = Some(Next::Changed);
             return;
         }
-        let mut planes: Vec<Vec<f32>> = Vec::new();
-        decoded.copy_to_vecs_planar(&mut planes);
+        self.usual = frames as u64;
+        let shown = self.shown(self.usual);
+        let hidden = usize::try_from(self.usual - shown).unwrap_or(frames);
         for (ready, plane) in self.ready.iter_mut().zip(&mut planes) {
+            plane.drain(..hidden.min(plane.len()));
             self.losses.not_finite += zero_what_is_not_finite(plane);
             ready.append(plane);
         }
-        self.usual = frames as u64;
-        self.frames += self.usual;
+        self.frames += shown;
         if self.marks {
-            self.unmarked += self.usual;
+            self.unmarked += shown;
         }
+    }
+
+    /// Goes to where the sound begins, once the sample rate is known.
+    fn begin(&mut self) {
+        let rate = self.sample_rate_hz;
+        self.hidden = self.start.hidden.frames(rate);
+        // What could not be decoded until now comes before it too.
+        let shown = self.shown(self.silence);
+        self.losses.frames = shown;
+        if shown == 0 {
+            self.losses.times = 0;
+        }
+        let later = self.start.later.frames(rate);
+        let is_sane = later <= MOST_SILENCE_S * u64::from(rate);
+        self.silence = shown + if is_sane { later } else { 0 };
+        self.frames = self.silence;
+    }
+
+    /// How many of the next frames are not hidden.
+    fn shown(&mut self, frames: u64) -> u64 {
+        let hidden = self.hidden.min(frames);
+        self.hidden -= hidden;
+        frames - hidden
     }
 
     /// Silence for so many frames, before what is ready.
     fn lose(&mut self, frames: u64) {
+        let hidden = self.hidden > 0;
+        let frames = self.shown(frames);
+        if hidden && frames == 0 {
+            return;
+        }
         // Before the first samples their rate is not known.
         let rate = u64::from(self.sample_rate_hz.max(8_000));
         if self.losses.frames + frames > MOST_SILENCE_S * rate {
@@ -254,26 +285,8 @@ impl<'s> Stream<'s> {
     /// What is known after the last block.
     pub(in crate::audio) fn finish(self) -> Ending {
         let at = |frames: u64| real_s(frames, self.sample_rate_hz);
-        let mut warnings = Vec::new();
         let losses = &self.losses;
-        if losses.times > 0 {
-            warnings.push(format!(
-                "sound is damaged in {} at {:.3} s; {:.3} s of it are silence now, so that what follows keeps its time{}",
-                match losses.times {
-                    1 => "one place,".to_owned(),
-                    times => format!("{times} places, the first"),
-                },
-                at(losses.first),
-                at(losses.frames),
-                if self.is_estimate { ", to a frame or so where frames differ in length" } else { "" }
-            ));
-        }
-        if losses.not_finite > 0 {
-            warnings.push(format!(
-                "samples that are not finite numbers were read as zero: {}",
-                losses.not_finite
-            ));
-        }
+        let mut warnings = losses.warnings(self.sample_rate_hz, self.is_estimate);
         let ended = match &self.end {
             _ if losses.too_long => Some(format!(
                 "more than {MOST_SILENCE_S} s of its sound are missing"
@@ -296,8 +309,4 @@ impl<'s> Stream<'s> {
             warnings,
         }
     }
-}
-
-fn real_s(frames: u64, sample_rate_hz: u32) -> f64 {
-    usize::try_from(frames).map_or(f64::INFINITY, real) / f64::from(sample_rate_hz)
 }
