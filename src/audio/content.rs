@@ -7,9 +7,9 @@ use std::path::Path;
 pub const HEAD_BYTES: usize = 64;
 
 /// Endings of the names of recordings: of those that are read, and of those for which it is told how to convert them.
-const ENDINGS: [&str; 22] = [
+const ENDINGS: [&str; 24] = [
     "wav", "wave", "m4a", "mp4", "mov", "aac", "mp3", "flac", "ogg", "oga", "opus", "webm", "mka",
-    "amr", "3gp", "3ga", "wma", "aif", "aiff", "aifc", "caf", "qta",
+    "amr", "3gp", "3ga", "wma", "aif", "aiff", "aifc", "caf", "qta", "avi", "w64",
 ];
 
 /// Whether the name of a file says that it should be a recording.
@@ -35,7 +35,7 @@ pub fn could_be_recording(head: &[u8]) -> bool {
 pub(super) enum Content {
     /// WAV and its kin; also what is nothing known, for the walk over its chunks says what is not a WAV about it.
     Wav,
-    /// MPEG-4 and `QuickTime`: AAC or ALAC in it.
+    /// MPEG-4 and `QuickTime`: AAC, ALAC or PCM in it.
     Mp4,
     /// AAC in frames of its own (ADTS).
     Adts,
@@ -45,6 +45,9 @@ pub(super) enum Content {
     Tagged,
     Flac,
     OggVorbis,
+    Aiff,
+    /// A Core Audio file.
+    Caf,
     Refused(Refused),
 }
 
@@ -80,8 +83,25 @@ impl Content {
             [b'#', b'!', b'A', b'M', b'R', ..] => refused("AMR", "amr"),
             [0x1A, 0x45, 0xDF, 0xA3, ..] => refused("WebM or Matroska", "webm"),
             [0x30, 0x26, 0xB2, 0x75, ..] => refused("Windows Media", "wma"),
-            [b'F', b'O', b'R', b'M', _, _, _, _, b'A', b'I', b'F', ..] => refused("AIFF", "aiff"),
-            [b'c', b'a', b'f', b'f', ..] => refused("a Core Audio file", "caf"),
+            [b'F', b'O', b'R', b'M', _, _, _, _, b'A', b'I', b'F', ..] => Self::Aiff,
+            [b'c', b'a', b'f', b'f', ..] => Self::Caf,
+            [
+                b'R',
+                b'I',
+                b'F',
+                b'F',
+                _,
+                _,
+                _,
+                _,
+                b'A',
+                b'V',
+                b'I',
+                b' ',
+                ..,
+            ] => refused("AVI", "avi"),
+            // The other forms of RIFF are in capitals.
+            [b'r', b'i', b'f', b'f', ..] => refused("Wave64", "w64"),
             [b'.', b's', b'n', b'd', ..] => refused("a Sun audio file", "au"),
             [b'w', b'v', b'p', b'k', ..] => refused("WavPack", "wv"),
             [b'M', b'A', b'C', b' ', ..] => refused("Monkey's Audio", "ape"),
@@ -126,6 +146,8 @@ mod tests {
             (b"\xFF\xF9\x50\x80", Content::Adts),
             (b"\xFF\xFB\x90\x64", Content::Mp3),
             (b"\xFF\xE3\x18\xC4", Content::Mp3),
+            (b"FORM\0\0\0\0AIFC", Content::Aiff),
+            (b"caff\0\x01", Content::Caf),
         ] {
             assert_eq!(Content::of(head), content, "{head:?}");
         }
@@ -133,7 +155,8 @@ mod tests {
             &b"#!AMR\n"[..],
             b"#!AMR-WB\n",
             b"\x1A\x45\xDF\xA3",
-            b"FORM\0\0\0\0AIFC",
+            b"RIFF\0\0\0\0AVI LIST",
+            b"riff\x2E\x91\xCF\x11",
             b"OggS\0\x02\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x01\x13OpusHead",
             b"OggS",
             b"\xFF\xFD\x90\x64",

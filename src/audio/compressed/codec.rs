@@ -1,17 +1,23 @@
 //! What decodes a packet, and what it is called.
 
 use symphonia::core::codecs::audio::well_known::{
-    CODEC_ID_AAC, CODEC_ID_ALAC, CODEC_ID_FLAC, CODEC_ID_MP3, CODEC_ID_OPUS, CODEC_ID_VORBIS,
+    CODEC_ID_AAC, CODEC_ID_AC3, CODEC_ID_AC4, CODEC_ID_ALAC, CODEC_ID_EAC3, CODEC_ID_FLAC,
+    CODEC_ID_MP3, CODEC_ID_OPUS, CODEC_ID_PCM_ALAW, CODEC_ID_PCM_MULAW, CODEC_ID_VORBIS,
 };
-use symphonia::core::codecs::audio::{AudioCodecParameters, AudioDecoder, AudioDecoderOptions};
+use symphonia::core::codecs::audio::{
+    AudioCodecId, AudioCodecParameters, AudioDecoder, AudioDecoderOptions,
+};
+use symphonia::core::codecs::registry::RegisterableAudioDecoder;
 use symphonia::core::errors;
-use symphonia::default::codecs::{AacDecoder, AlacDecoder, FlacDecoder, MpaDecoder, VorbisDecoder};
+use symphonia::default::codecs::{
+    AacDecoder, AlacDecoder, FlacDecoder, MpaDecoder, PcmDecoder, VorbisDecoder,
+};
 
 use crate::Error;
 use crate::audio::content::Refused;
 use crate::audio::unreadable;
 
-/// A decoder of the five that there are.
+/// A decoder of the six that there are.
 pub(super) struct Decoder {
     pub inner: Box<dyn AudioDecoder>,
     name: &'static str,
@@ -53,15 +59,18 @@ impl Decoder {
                 "Vorbis",
                 true,
             ),
-            CODEC_ID_OPUS => return Err(unreadable(Refused::new("Opus", ending).sentence())),
-            _ => {
-                return Err(unreadable(
-                    Refused::new(
-                        "an MP4 without AAC or ALAC (it may hold AMR, Opus, or no sound)",
-                        ending,
-                    )
-                    .sentence(),
-                ));
+            other => {
+                let name = unread(other);
+                if name.is_some() || !is_pcm(other) {
+                    let name = name.unwrap_or("neither AAC, ALAC, MP3, FLAC nor PCM (AMR perhaps)");
+                    return Err(unreadable(Refused::new(name, ending).sentence()));
+                }
+                let is_lossy = matches!(other, CODEC_ID_PCM_ALAW | CODEC_ID_PCM_MULAW);
+                (
+                    PcmDecoder::try_new(params, &options).map(boxed),
+                    "PCM",
+                    is_lossy,
+                )
             }
         };
         let inner = made.map_err(|e| refused(&e, name, ending))?;
@@ -72,6 +81,7 @@ impl Decoder {
                 .as_ref()
                 .and_then(|d| Some(u32::from(*d.get(5)?))),
             CODEC_ID_FLAC => inner.codec_params().bits_per_sample,
+            codec if is_pcm(codec) => inner.codec_params().bits_per_sample,
             _ => None,
         };
         Ok(Self {
@@ -89,6 +99,24 @@ impl Decoder {
             None => self.name.to_owned(),
         }
     }
+}
+
+/// What is known and not read.
+fn unread(codec: AudioCodecId) -> Option<&'static str> {
+    match codec {
+        CODEC_ID_OPUS => Some("Opus"),
+        CODEC_ID_AC3 => Some("AC-3"),
+        CODEC_ID_EAC3 => Some("Enhanced AC-3"),
+        CODEC_ID_AC4 => Some("AC-4"),
+        _ => None,
+    }
+}
+
+/// Whether samples stand as they are.
+fn is_pcm(codec: AudioCodecId) -> bool {
+    PcmDecoder::supported_codecs()
+        .iter()
+        .any(|of| of.id == codec)
 }
 
 fn boxed(decoder: impl AudioDecoder + 'static) -> Box<dyn AudioDecoder> {

@@ -83,6 +83,7 @@ pub(super) fn mp3(source: Source<'_>) -> Result<Opened<'_>, Error> {
         packets: Box::new(frames),
         decoder,
         start,
+        note: None,
     })
 }
 
@@ -108,6 +109,7 @@ pub(super) fn adts(source: Source<'_>) -> Result<Opened<'_>, Error> {
         packets: Box::new(frames),
         decoder,
         start: Start::default(),
+        note: None,
     })
 }
 

@@ -5,6 +5,8 @@
 
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 
+use super::overlaid::Overlaid;
+use super::pictures;
 use super::source::Source;
 
 /// Bytes of an index at most, and of what a pipe has before it: that of an hour of video takes 2 MiB.
@@ -53,12 +55,20 @@ impl Head {
 pub(super) fn index(source: Source<'_>) -> io::Result<(Vec<u8>, Source<'_>)> {
     match source {
         Source::Seekable(mut inner) => {
-            let index = sought(&mut inner)?;
+            let (mut index, from) = sought(&mut inner)?;
             inner.seek(SeekFrom::Start(0))?;
-            Ok((index, Source::Seekable(inner)))
+            let source = if pictures::hide(&mut index) {
+                Source::Seekable(Box::new(Overlaid::new(inner, from, index.clone())))
+            } else {
+                Source::Seekable(inner)
+            };
+            Ok((index, source))
         }
         Source::Pipe(mut inner) => {
-            let (index, read) = piped(&mut inner)?;
+            let (from, mut read) = piped(&mut inner)?;
+            let index = &mut read[from..];
+            pictures::hide(index);
+            let index = index.to_vec();
             Ok((
                 index,
                 Source::Pipe(Box::new(Cursor::new(read).chain(inner))),
@@ -67,8 +77,8 @@ pub(super) fn index(source: Source<'_>) -> io::Result<(Vec<u8>, Source<'_>)> {
     }
 }
 
-/// The body of the index, past atoms that are not read.
-fn sought(source: &mut (impl Read + Seek)) -> io::Result<Vec<u8>> {
+/// The body of the index, past atoms that are not read, and where it begins.
+fn sought(source: &mut (impl Read + Seek)) -> io::Result<(Vec<u8>, u64)> {
     let mut at = 0;
     for _ in 0..MOST_ATOMS {
         source.seek(SeekFrom::Start(at))?;
@@ -80,18 +90,18 @@ fn sought(source: &mut (impl Read + Seek)) -> io::Result<Vec<u8>> {
             source.seek(SeekFrom::Start(body))?;
             let mut index = Vec::new();
             append(source, body_bytes(head), &mut index)?;
-            return Ok(index);
+            return Ok((index, body));
         }
         match head.length.and_then(|length| at.checked_add(length)) {
             Some(next) => at = next,
             None => break,
         }
     }
-    Ok(Vec::new())
+    Ok((Vec::new(), at))
 }
 
-/// The body of the index, and all that was read for it.
-fn piped(source: &mut impl Read) -> io::Result<(Vec<u8>, Vec<u8>)> {
+/// Where the body of the index begins in what was read for it, and goes on to the end of that.
+fn piped(source: &mut impl Read) -> io::Result<(usize, Vec<u8>)> {
     let mut read = Vec::new();
     while (read.len() as u64) < MOST_BYTES {
         let at = read.len();
@@ -107,10 +117,10 @@ fn piped(source: &mut impl Read) -> io::Result<(Vec<u8>, Vec<u8>)> {
         }
         append(source, body_bytes(head), &mut read)?;
         if head.kind == *b"moov" {
-            return Ok((read[at + head.bytes..].to_vec(), read));
+            return Ok((at + head.bytes, read));
         }
     }
-    Ok((Vec::new(), read))
+    Ok((read.len(), read))
 }
 
 /// Bytes of an atom behind its header, as many as are looked at.

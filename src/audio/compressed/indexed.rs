@@ -1,23 +1,20 @@
-//! MP4 and FLAC, which symphonia takes apart.
+//! MP4, FLAC, AIFF and CAF, which symphonia takes apart.
 
-use std::io::ErrorKind;
+use std::io::{ErrorKind, Seek, SeekFrom};
 
-use symphonia::core::codecs::CodecParameters;
-use symphonia::core::codecs::audio::{AudioCodecParameters, CODEC_ID_NULL_AUDIO};
 use symphonia::core::errors::Error as Problem;
 use symphonia::core::formats::{FormatOptions, FormatReader};
-use symphonia::core::io::ReadBytes;
+use symphonia::core::io::{MediaSourceStream, ReadBytes};
 use symphonia::core::units::Duration;
-use symphonia::default::formats::{FlacReader, IsoMp4Reader};
+use symphonia::default::formats::{AiffReader, CafReader, FlacReader, IsoMp4Reader};
 
-use super::codec::Decoder;
 use super::edits::Edits;
 use super::index::index;
 use super::source::Source;
 use super::start::Start;
+use super::tracks::{self, Track};
 use super::{Next, Opened, Packets};
 use crate::Error;
-use crate::audio::content::Refused;
 use crate::audio::unreadable;
 
 /// A container that symphonia takes apart, and the stream of it that is listened to.
@@ -36,11 +33,25 @@ pub(super) fn mp4(source: Source<'_>) -> Result<Opened<'_>, Error> {
     let (index, source) = index(source)?;
     let edits = Edits::of(&index);
     drop(index);
-    let mut media = source.into_media();
+    let mut reader = mp4_reader(source.into_media(), is_pipe)?;
+    let track = tracks::choose(&mut *reader, "mp4", is_pipe)?;
+    if track.probed {
+        let mut media = reader.into_inner();
+        media.seek(SeekFrom::Start(0))?;
+        reader = mp4_reader(media, is_pipe)?;
+    }
+    Ok(opened(reader, track, &edits, false))
+}
+
+/// What takes an MP4 apart, from its first byte on.
+fn mp4_reader(
+    mut media: MediaSourceStream<'_>,
+    is_pipe: bool,
+) -> Result<Box<dyn FormatReader + '_>, Error> {
     // Its type stands behind a length, which the reader goes back for.
     media.ignore_bytes(4)?;
     match IsoMp4Reader::try_new(media, FormatOptions::default()) {
-        Ok(reader) => opened(Box::new(reader), "mp4", false, &edits),
+        Ok(reader) => Ok(Box::new(reader)),
         Err(problem) if !is_without_index(&problem) => Err(broken(problem, "MP4")),
         Err(_) if is_pipe => Err(unreadable(
             "its index (moov) stands behind its sound, where a pipe cannot look first, or is missing: give the file itself, \
@@ -65,56 +76,66 @@ fn is_without_index(problem: &Problem) -> bool {
 pub(super) fn flac(source: Source<'_>) -> Result<Opened<'_>, Error> {
     let media = source.into_media();
     match FlacReader::try_new(media, FormatOptions::default()) {
-        Ok(reader) => opened(Box::new(reader), "flac", true, &Edits::default()),
+        Ok(reader) => only(Box::new(reader), "flac", true),
         Err(problem) => Err(broken(problem, "FLAC")),
     }
 }
 
-fn opened<'s>(
-    reader: Box<dyn FormatReader + 's>,
-    ending: &'static str,
-    placed: bool,
-    edits: &Edits,
-) -> Result<Opened<'s>, Error> {
-    let none = || {
-        unreadable(
-            Refused::new(
-                "an MP4 without AAC or ALAC (it may hold AMR, Opus, or no sound)",
-                ending,
-            )
-            .sentence(),
-        )
-    };
-    let (track, params) = sound(&*reader).ok_or_else(none)?;
-    let decoder = Decoder::new(&params, ending)?;
-    let start = edits.start(track);
-    let is_within = lasts(&*reader, track).is_none_or(|units| start.hidden.units() < units);
-    let start = if is_within { start } else { Start::default() };
-    let expected = None;
-    let packets = Box::new(Indexed {
-        reader,
-        track,
-        expected,
-        placed,
-    });
-    Ok(Opened {
-        packets,
-        decoder,
-        start,
-    })
+/// Opens an AIFF or an AIFF-C at its first byte.
+pub(super) fn aiff(source: Source<'_>) -> Result<Opened<'_>, Error> {
+    let media = source.into_media();
+    match AiffReader::try_new(media, FormatOptions::default()) {
+        Ok(reader) => only(Box::new(reader), "aiff", false),
+        Err(problem) => Err(broken(problem, "AIFF")),
+    }
 }
 
-/// The first stream of sound, one of a known codec if there is one.
-fn sound(reader: &dyn FormatReader) -> Option<(u32, AudioCodecParameters)> {
-    let audio = reader
-        .tracks()
-        .iter()
-        .filter_map(|track| match &track.codec_params {
-            Some(CodecParameters::Audio(params)) => Some((track.id, params.clone())),
-            _ => None,
-        });
-    let unknown = |(_, params): &(u32, AudioCodecParameters)| params.codec == CODEC_ID_NULL_AUDIO;
-    audio.min_by_key(unknown)
+/// Opens a Core Audio file at its first byte.
+pub(super) fn caf(source: Source<'_>) -> Result<Opened<'_>, Error> {
+    if matches!(source, Source::Pipe(_)) {
+        return Err(unreadable(
+            "it is a Core Audio file, which cannot be read from a pipe: give the file itself",
+        ));
+    }
+    let media = source.into_media();
+    match CafReader::try_new(media, FormatOptions::default()) {
+        Ok(reader) => only(Box::new(reader), "caf", false),
+        Err(Problem::IoError(e)) if e.kind() == ErrorKind::UnexpectedEof => Err(unreadable(
+            "the chunks of its Core Audio file end too early: the recording was not finished, or the file is cut",
+        )),
+        Err(problem) => Err(broken(problem, "Core Audio file")),
+    }
+}
+
+/// What has one track. `placed`: whether packets say where they begin.
+fn only<'s>(
+    mut reader: Box<dyn FormatReader + 's>,
+    ending: &'static str,
+    placed: bool,
+) -> Result<Opened<'s>, Error> {
+    let track = tracks::choose(&mut *reader, ending, true)?;
+    Ok(opened(reader, track, &Edits::default(), placed))
+}
+
+fn opened<'s>(
+    reader: Box<dyn FormatReader + 's>,
+    track: Track,
+    edits: &Edits,
+    placed: bool,
+) -> Opened<'s> {
+    let start = edits.start(track.id);
+    let is_within = lasts(&*reader, track.id).is_none_or(|units| start.hidden.units() < units);
+    Opened {
+        packets: Box::new(Indexed {
+            reader,
+            track: track.id,
+            expected: None,
+            placed,
+        }),
+        decoder: track.decoder,
+        start: if is_within { start } else { Start::default() },
+        note: track.note,
+    }
 }
 
 /// How long a stream lasts in its own units, if its container says so.

@@ -1,6 +1,6 @@
-//! Compressed recordings: MP4 (AAC, ALAC), ADTS (AAC), MP3, FLAC and Ogg Vorbis, in blocks.
+//! Recordings that are no WAV: MP4 (AAC, ALAC, PCM), ADTS (AAC), MP3, FLAC, Ogg Vorbis, AIFF and CAF, in blocks.
 //!
-//! The crate symphonia has the decoders, and takes MP4 and FLAC apart. Frames of MP3 and ADTS ([`frames`]) and pages of Ogg
+//! The crate symphonia has the decoders, and takes MP4, FLAC, AIFF and CAF apart. Frames of MP3 and ADTS ([`frames`]) and pages of Ogg
 //! ([`pages`]) are found here: where some are damaged, it has to be known how much sound they held, so that what comes
 //! later keeps its time. What is lost becomes silence ([`stream`]).
 //!
@@ -17,10 +17,13 @@ mod index;
 mod indexed;
 mod losses;
 mod opening;
+mod overlaid;
 mod pages;
+mod pictures;
 mod source;
 mod start;
 mod stream;
+mod tracks;
 
 pub use guard::is_guarded;
 pub(super) use source::Source;
@@ -62,4 +65,6 @@ struct Opened<'s> {
     packets: Box<dyn Packets + 's>,
     decoder: Decoder,
     start: Start,
+    /// What is to be said of the choice of a track.
+    note: Option<String>,
 }

@@ -13,6 +13,8 @@ pub(super) fn open(content: Content, source: Source<'_>) -> Result<Opened<'_>, E
     match content {
         Content::Mp4 => indexed::mp4(source),
         Content::Flac => indexed::flac(source),
+        Content::Aiff => indexed::aiff(source),
+        Content::Caf => indexed::caf(source),
         Content::OggVorbis => pages::vorbis(source),
         Content::Adts => frames::adts(source),
         Content::Tagged => behind_tag(source),

@@ -76,6 +76,7 @@ pub(super) fn vorbis(source: Source<'_>) -> Result<Opened<'_>, Error> {
         packets: Box::new(pages),
         decoder,
         start: Start::default(),
+        note: None,
     })
 }
 

@@ -25,6 +25,15 @@ impl<'s> Source<'s> {
         Ok(Self::Seekable(Box::new(Seekable { inner, length })))
     }
 
+    /// Anything else that can be read anywhere.
+    pub(in crate::audio) fn anywhere(
+        mut inner: impl Read + Seek + Send + Sync + 's,
+    ) -> io::Result<Self> {
+        let length = inner.seek(SeekFrom::End(0))?;
+        inner.seek(SeekFrom::Start(0))?;
+        Ok(Self::Seekable(Box::new(Seekable { inner, length })))
+    }
+
     /// For a container that symphonia takes apart.
     pub(super) fn into_media(self) -> MediaSourceStream<'s> {
         let source = match self {

@@ -52,6 +52,8 @@ pub(in crate::audio) struct Stream<'s> {
     usual: u64,
     losses: Losses,
     end: Option<Next>,
+    /// What is to be said of the choice of a track.
+    note: Option<String>,
 }
 
 impl fmt::Debug for Stream<'_> {
@@ -74,6 +76,7 @@ impl<'s> Stream<'s> {
             packets,
             decoder,
             start,
+            note,
         } = opened?;
         let mut stream = Self {
             packets,
@@ -92,6 +95,7 @@ impl<'s> Stream<'s> {
             usual: 0,
             losses: Losses::default(),
             end: None,
+            note,
         };
         while stream.channels == 0 || stream.hidden > 0 {
             if stream.end.is_some() {
@@ -304,6 +308,7 @@ impl<'s> Stream<'s> {
             )
         });
         warnings.extend(ended);
+        warnings.extend(self.note);
         Ending {
             duration_s: at(self.frames),
             warnings,
