@@ -217,6 +217,25 @@ fn what_is_damaged_before_the_beginning_is_not_told() {
     assert!(error.contains("edit list begins"), "{error}");
 }
 
+#[test]
+fn a_gap_of_the_time_stamps_is_silence() {
+    let whole = audio::read_file(&path("drop.m4a")).unwrap();
+    let gap = audio::read_file(&path("drop-gap.m4a")).unwrap();
+    assert_eq!(gap.channels[0].len(), whole.channels[0].len());
+    let (from, to) = unlike_s(&whole, &gap).unwrap();
+    // Two packets of 1024 samples, 15 packets after those that are hidden, and what overlaps them.
+    let packet_s = 1_024.0 / 32e3;
+    assert!(
+        from > 12.9 * packet_s && to < 17.1 * packet_s,
+        "from {from} s to {to} s"
+    );
+    assert!(
+        gap.warnings[0].contains("missing") && gap.warnings[0].contains("0.064 s"),
+        "{:?}",
+        gap.warnings
+    );
+}
+
 /// A source that gives a few bytes at a time, as a pipe may.
 struct Trickle<R>(R, usize);
 

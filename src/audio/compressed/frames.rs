@@ -84,6 +84,7 @@ pub(super) fn mp3(source: Source<'_>) -> Result<Opened<'_>, Error> {
         decoder,
         start,
         note: None,
+        units_per_s: None,
     })
 }
 
@@ -110,6 +111,7 @@ pub(super) fn adts(source: Source<'_>) -> Result<Opened<'_>, Error> {
         decoder,
         start: Start::default(),
         note: None,
+        units_per_s: None,
     })
 }
 

@@ -125,6 +125,7 @@ fn opened<'s>(
 ) -> Opened<'s> {
     let start = edits.start(track.id);
     let is_within = lasts(&*reader, track.id).is_none_or(|units| start.hidden.units() < units);
+    let units_per_s = units_per_s(&*reader, track.id);
     Opened {
         packets: Box::new(Indexed {
             reader,
@@ -135,6 +136,7 @@ fn opened<'s>(
         decoder: track.decoder,
         start: if is_within { start } else { Start::default() },
         note: track.note,
+        units_per_s,
     }
 }
 
@@ -142,6 +144,13 @@ fn opened<'s>(
 fn lasts(reader: &dyn FormatReader, track: u32) -> Option<u64> {
     let track = reader.tracks().iter().find(|of| of.id == track)?;
     track.duration.map(Duration::get).filter(|units| *units > 0)
+}
+
+/// How many units of time a second has in a stream, if it is a whole number.
+fn units_per_s(reader: &dyn FormatReader, track: u32) -> Option<u32> {
+    let track = reader.tracks().iter().find(|of| of.id == track)?;
+    let base = track.time_base?;
+    (base.numer.get() == 1).then_some(base.denom.get())
 }
 
 fn broken(problem: Problem, name: &str) -> Error {

@@ -23,7 +23,7 @@ impl Losses {
         let at = |frames: u64| real_s(frames, sample_rate_hz);
         let damaged = (self.times > 0).then(|| {
             format!(
-                "sound is damaged in {} at {:.3} s; {:.3} s of it are silence now, so that what follows keeps its time{}",
+                "sound is missing or damaged in {} at {:.3} s; {:.3} s of it are silence now, so that what follows keeps its time{}",
                 match self.times {
                     1 => "one place,".to_owned(),
                     times => format!("{times} places, the first"),

@@ -67,4 +67,6 @@ struct Opened<'s> {
     start: Start,
     /// What is to be said of the choice of a track.
     note: Option<String>,
+    /// Units per second of what packets say of how long they last, if they say so.
+    units_per_s: Option<u32>,
 }

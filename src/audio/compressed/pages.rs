@@ -77,6 +77,7 @@ pub(super) fn vorbis(source: Source<'_>) -> Result<Opened<'_>, Error> {
         decoder,
         start: Start::default(),
         note: None,
+        units_per_s: None,
     })
 }
 

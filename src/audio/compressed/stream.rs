@@ -54,6 +54,10 @@ pub(in crate::audio) struct Stream<'s> {
     end: Option<Next>,
     /// What is to be said of the choice of a track.
     note: Option<String>,
+    /// Units per second of what packets say of how long they last, if they say so.
+    units_per_s: Option<u32>,
+    /// Frames that are missing behind the last packet, which lasts longer than its sound.
+    gap: u64,
 }
 
 impl fmt::Debug for Stream<'_> {
@@ -77,6 +81,7 @@ impl<'s> Stream<'s> {
             decoder,
             start,
             note,
+            units_per_s,
         } = opened?;
         let mut stream = Self {
             packets,
@@ -96,6 +101,8 @@ impl<'s> Stream<'s> {
             losses: Losses::default(),
             end: None,
             note,
+            units_per_s,
+            gap: 0,
         };
         while stream.channels == 0 || stream.hidden > 0 {
             if stream.end.is_some() {
@@ -169,6 +176,10 @@ impl<'s> Stream<'s> {
                     self.decoder.inner.reset();
                     self.lose(lost);
                 }
+                let gap = std::mem::take(&mut self.gap);
+                if gap > 0 {
+                    self.lose(gap);
+                }
                 if self.end.is_none() {
                     self.decode(&packet);
                 }
@@ -210,6 +221,9 @@ impl<'s> Stream<'s> {
             return;
         }
         self.usual = frames as u64;
+        if self.units_per_s == Some(rate) {
+            self.gap = packet.dur.get().saturating_sub(self.usual);
+        }
         let shown = self.shown(self.usual);
         let hidden = usize::try_from(self.usual - shown).unwrap_or(frames);
         for (ready, plane) in self.ready.iter_mut().zip(&mut planes) {
