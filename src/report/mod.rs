@@ -33,12 +33,12 @@ pub use estimates::{Estimates, Method, Restitution, Scatter};
 pub use impact::{Bounce, Impact};
 pub use irregular::{Irregular, Kind as IrregularKind};
 pub use model::{Given, Model, Parameters};
-pub(crate) use numbers::{counted, decimals, listed, short, with_error};
+pub(crate) use numbers::{counted, decimals, listed, short, short_decimals};
 pub use rebound::Rebound;
 pub use rejected::{RejectReason, Rejected};
 pub use release::Release;
 pub use settings::Settings;
-pub(crate) use text::model_name;
+pub(crate) use text::{heard, model_name, range, restitution};
 pub use warning::{Warning, WarningCode};
 pub(crate) use wrap::wrapped_to;
 

@@ -472,11 +472,23 @@ fn a_batch_draws_its_drops_and_a_sheet_of_each_recording() {
     );
     assert!(output.status.success(), "{}", text(&output.stderr));
     let all = fs::read_to_string(folder.join("all.svg")).unwrap();
-    assert!(all.contains("e of 2 drops") && all.contains("in/steel.wav"));
+    for part in ["mean e = ", ">\n2 drops\n", ">\nsteel\n", ">\ndead\n"] {
+        assert!(all.contains(part), "{part}");
+    }
     for name in ["steel.wav.svg", "dead.wav.svg"] {
         let sheet = fs::read_to_string(folder.join("sheets").join(name)).unwrap();
-        assert!(sheet.contains("Residuals"), "{name}");
+        assert!(sheet.contains("Level of channel"), "{name}");
     }
+    // What has no drop has a row too, and e sorts the rows.
+    synth(folder.join("in/clock.wav"), "metronome", 1);
+    let sorted = ["batch", "in", "--plot", "e.svg", "--plot-order", "e"];
+    assert_eq!(run(&folder, &sorted).status.code(), Some(1));
+    let by_e = fs::read_to_string(folder.join("e.svg")).unwrap();
+    let place = |name: &str| by_e.find(&format!(">\n{name}\n")).unwrap();
+    assert!(by_e.contains("no drop") && place("steel") < place("dead"));
+    let wrong = run(&folder, &["batch", "in", "--plot-order", "size"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(text(&wrong.stderr).contains("[possible values: file, e]"));
 }
 
 #[test]

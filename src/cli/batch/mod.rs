@@ -29,7 +29,6 @@ use super::picture::Target as Picture;
 use super::rule::RuleArguments;
 use super::{Outcome, output, terminal};
 use crate::Error;
-use crate::picture::batch::sheet;
 use crate::plot::Figure;
 use crate::report::batch::{Digest, Found, answer, conclusion, summary};
 use crate::report::curve::Bounces;
@@ -40,7 +39,7 @@ use format::{Format, ReadBack};
 use inputs::Input;
 use job::{Job, PerFile};
 use options::{Pattern, Table};
-use plots::Plots;
+use plots::{PlotOrder, Plots};
 use progress::Progress;
 use rows_file::{Resumed, RowsFile, check_is_file, partial};
 use screen::Screen;
@@ -105,9 +104,12 @@ pub(super) struct Arguments {
     /// Write what all drops say together as JSON: mean, spread, the verdict of a rule, groups
     #[arg(long, value_name = "OUT.json")]
     summary: Option<PathBuf>,
-    /// Draw e of each drop with its interval, and a histogram
+    /// Draw e of each drop with its interval, their mean, and a histogram
     #[arg(long, value_name = "OUT.svg|png")]
     plot: Option<PathBuf>,
+    /// What the rows of that picture are sorted by
+    #[arg(long, value_enum, value_name = "BY", default_value = "file")]
+    plot_order: PlotOrder,
     /// Draw a sheet for each recording into this folder, which is made: NAME.wav.svg
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
@@ -188,7 +190,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         output::write(path, b"{", document.as_bytes())?;
     }
     if let Some(plot) = plot {
-        plot.draw(&sheet(&plots::rows(&digests)))?;
+        plot.draw(&plots::all(&digests, arguments.plot_order.into()))?;
     }
     let told = together.said + &curve.said;
     keep(arguments, &job, &digests, &told, curve.figure)?;
@@ -209,7 +211,7 @@ fn keep(
     curve: Option<Figure>,
 ) -> Result<(), Error> {
     let parts = || {
-        let figures: Vec<Figure> = [sheet(&plots::rows(digests))]
+        let figures: Vec<Figure> = [plots::all(digests, arguments.plot_order.into())]
             .into_iter()
             .chain(curve)
             .collect();

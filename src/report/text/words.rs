@@ -33,7 +33,8 @@ pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[Stri
     }
 }
 
-fn range(drop: &Drop) -> Option<String> {
+/// `e is between 0.9287 and 0.9307 with 95 % confidence, at 0.19 m/s`.
+pub(crate) fn range(drop: &Drop) -> Option<String> {
     let restitution = drop.restitution.as_ref()?;
     let [low, high] = restitution.estimate.interval95?;
     let digits = short_decimals(restitution.estimate.std_error?);
