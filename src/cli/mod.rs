@@ -14,6 +14,7 @@ mod listen;
 mod meant;
 mod output;
 mod picture;
+mod predict;
 mod quantity;
 mod rule;
 mod sha256;

@@ -303,3 +303,66 @@ fn rows_with_decimal_commas_have_semicolons_between_them() {
     ]);
     assert_eq!(resumed.status.code(), Some(2));
 }
+
+#[test]
+fn later_bounces_and_the_height_that_reaches_one_are_predicted() {
+    let folder = empty_folder("rebound", "predict");
+    let path = folder.join("times.csv");
+    // e = 0.8 from 1 m, without air.
+    let mut time = 0.0;
+    let times = (0..9).map(|n| {
+        time += 2.0 * (2.0 * 0.64_f64.powi(n) / 9.81).sqrt();
+        format!("{time:.6}")
+    });
+    fs::write(&path, times.collect::<Vec<_>>().join("\n")).unwrap();
+    let list = path.display().to_string();
+    let asked = [
+        "fit",
+        &list,
+        "--contact-time",
+        "1us",
+        "--predict",
+        "1m",
+        "--reach",
+        "1m",
+    ];
+    let document = json(&asked);
+    let prediction = &only_drop(&document)["prediction"];
+    let second = &prediction["rebounds"]["heights_m"][1];
+    assert!(
+        (second["value"].as_f64().unwrap() - 0.4096).abs() < 0.01,
+        "{second}"
+    );
+    let from = &prediction["reach"]["drop_height_m"];
+    assert!(
+        (from["value"].as_f64().unwrap() - 2.441).abs() < 0.05,
+        "{from}"
+    );
+    assert_eq!(prediction["reach"]["bounce"], 2);
+    let said = text(&run(&asked).stdout);
+    assert!(said.contains("predict  from 100 cm back to 64."), "{said}");
+    assert!(
+        said.contains("for bounce 2 to reach 100 cm it must fall from 24"),
+        "{said}"
+    );
+    // What is not asked is left out, and what cannot be asked is one sentence.
+    assert!(
+        only_drop(&json(&["fit", &list]))
+            .get("prediction")
+            .is_none()
+    );
+    for (wrong, part) in [
+        (&["--predict", "0"][..], "height"),
+        (&["--predict", "30.5"], "cm"),
+        (&["--reach-bounce", "3"], "--reach"),
+        (&["--reach", "1m", "--reach-bounce", "11"], "1..=10"),
+    ] {
+        let refused = run(&[&["fit", &list], wrong].concat());
+        assert_eq!(refused.status.code(), Some(2), "{wrong:?}");
+        assert!(
+            text(&refused.stderr).contains(part),
+            "{}",
+            text(&refused.stderr)
+        );
+    }
+}

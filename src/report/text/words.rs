@@ -5,7 +5,7 @@ use crate::fit::model::Budget;
 use crate::fit::model_selection::ALIKE;
 use crate::fit::{Estimate, ModelKind};
 use crate::report::numbers::{odds, short, short_decimals};
-use crate::report::{Ball, Drop, Given, Model, Report, rebound};
+use crate::report::{Ball, Drop, Given, Model, Report, prediction, rebound};
 
 /// The lines of a drop, and what a rule book says of it.
 pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[String]) {
@@ -26,6 +26,10 @@ pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[Stri
         if let Some(said) = said {
             entry(out, &format!("  {head:<9}{said}"));
         }
+    }
+    let predicted = drop.prediction.iter().flat_map(prediction::in_words);
+    for said in predicted {
+        entry(out, &format!("  predict  {said}"));
     }
     for (i, said) in rule.iter().enumerate() {
         let head = if i == 0 { "rule" } else { "" };
