@@ -123,10 +123,28 @@ pub(super) struct Arguments {
     document: DocumentArguments,
 }
 
+/// What standard output is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// The rows, or a table of them on a terminal.
+    Rows,
+    /// The comparison of groups.
+    Comparison,
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    run_for(arguments, Purpose::Rows)
+}
+
+pub(super) fn run_for(arguments: &Arguments, purpose: Purpose) -> Result<Outcome, Error> {
     arguments.curve.check()?;
     arguments.document.check()?;
     arguments.listening.request().settings.check()?;
+    if purpose == Purpose::Comparison && arguments.format.is_some() && arguments.output.is_none() {
+        return Err(Error::refused(
+            "compare prints the comparison: --format is of the rows, which go into -o",
+        ));
+    }
     let plot = arguments.plot.as_deref().map(Picture::new).transpose()?;
     let inputs = inputs::gather(&arguments.paths)?;
     let job = Job {
@@ -146,8 +164,9 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(note) = job.unmatched() {
         say(&note);
     }
-    let screen = screen(arguments, &job.inputs);
-    let (mut target, mut digests) = Target::open(arguments, &job, screen.is_some())?;
+    let quiet = purpose == Purpose::Comparison;
+    let screen = screen(arguments, &job.inputs).filter(|_| !quiet);
+    let (mut target, mut digests) = Target::open(arguments, &job, quiet || screen.is_some())?;
     if let Some(screen) = screen {
         let done = digests.iter().map(|digest| screen.rows(digest, &[]));
         let _: ControlFlow<()> = print(&(screen.heading() + &done.collect::<String>()))?;
@@ -182,8 +201,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     } else {
         summary(&digests)
     });
-    let together = Together::of(&job, arguments.group, &digests);
-    say(&together.said);
+    let together = Together::of(&job, arguments.group(purpose), &digests);
+    if !quiet {
+        say(&together.said);
+    }
     let curve = arguments.curve.told(bounces)?;
     if let Some(path) = &arguments.summary {
         let document = together.json(&digests).to_string() + "\n";
@@ -192,13 +213,15 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(plot) = plot {
         plot.draw(&plots::all(&digests, arguments.plot_order.into()))?;
     }
+    let output = quiet.then(|| together.said.trim_start().to_owned());
+    let (compared, status) = (together.is_compared() || !quiet, together.status);
     let told = together.said + &curve.said;
     keep(arguments, &job, &digests, &told, curve.figure)?;
     let found = |d: &Digest| matches!(d.found, Found::Drops(_));
     let whole = digests.iter().all(found);
     Ok(Outcome {
-        status: if whole { together.status } else { 1 },
-        ..Outcome::of(String::new())
+        status: if whole && compared { status } else { 1 },
+        ..Outcome::of(output.unwrap_or_default())
     })
 }
 
@@ -296,6 +319,18 @@ fn print(text: &str) -> Result<ControlFlow<()>, Error> {
 }
 
 impl Arguments {
+    /// What makes a group, if groups are to be compared.
+    fn group(&self, purpose: Purpose) -> Option<GroupBy> {
+        let named = self.pattern.is_some() || self.options.is_some();
+        let usual = if named {
+            GroupBy::Group
+        } else {
+            GroupBy::Folder
+        };
+        self.group
+            .or((purpose == Purpose::Comparison).then_some(usual))
+    }
+
     fn format(&self) -> Format {
         match self.format.unwrap_or(Format::Csv) {
             Format::Csv if self.decimal == Decimal::Comma => Format::CsvComma,
@@ -307,7 +342,7 @@ impl Arguments {
 /// Where the rows go.
 enum Target {
     Output,
-    /// A terminal has a table in place of them.
+    /// A terminal has a table in place of them, or they are not asked for.
     Nowhere,
     File(RowsFile),
     /// A file that was finished before.
@@ -319,12 +354,12 @@ impl Target {
     fn open(
         arguments: &Arguments,
         job: &Job<'_>,
-        on_screen: bool,
+        no_rows: bool,
     ) -> Result<(Self, Vec<Digest>), Error> {
         let (force, format) = (arguments.force, arguments.format());
         // A link stays a link, so the rows go beside what it leads to.
         let Some(path) = arguments.output.as_deref().map(followed) else {
-            if on_screen {
+            if no_rows {
                 return Ok((Self::Nowhere, Vec::new()));
             }
             let mut output = Self::Output;
