@@ -163,11 +163,27 @@ fn report(arguments: &Arguments) -> Result<Report, Error> {
     } else {
         fs::read(&arguments.file)?
     };
-    let typed = times::read(&bytes, arguments.reading())?;
-    let std_s = arguments
-        .time_error
-        .unwrap_or(USUAL_ERROR_S.max(typed.rounding_std_s));
-    request.fit(&typed, std_s, &name(&arguments.file))
+    let named = name(&arguments.file);
+    of_list(
+        &bytes,
+        arguments.reading(),
+        arguments.time_error,
+        &request,
+        &named,
+    )
+}
+
+/// The report of a list of this name, each of its times with this standard error or that of its rounding.
+pub(super) fn of_list(
+    bytes: &[u8],
+    reading: Reading,
+    time_error_s: Option<f64>,
+    request: &Request<'_>,
+    name: &str,
+) -> Result<Report, Error> {
+    let typed = times::read(bytes, reading)?;
+    let std_s = time_error_s.unwrap_or(USUAL_ERROR_S.max(typed.rounding_std_s));
+    request.fit(&typed, std_s, name)
 }
 
 impl Arguments {

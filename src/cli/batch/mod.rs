@@ -26,6 +26,7 @@ use super::known::{DECIMALS, one_of};
 use super::listen::{Listening, name};
 use super::output::{followed, place};
 use super::picture::Target as Picture;
+use super::quantity::time;
 use super::rule::RuleArguments;
 use super::{Outcome, output, terminal};
 use crate::Error;
@@ -70,7 +71,7 @@ A table for --options has a line per file; what is empty is as for all:
   ball-1.wav,30.5cm,2.7g,40mm
   tuesday/ball-1.wav,12in,,")]
 pub(super) struct Arguments {
-    /// Recordings, and folders that hold some
+    /// Recordings, folders that hold some, and lists of impact times (.csv, .tsv, .txt) as for fit
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// How many recordings to listen to at once [default: one for each core]
@@ -113,6 +114,9 @@ pub(super) struct Arguments {
     /// Draw a sheet for each recording into this folder, which is made: NAME.wav.svg
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Standard error of each time of a list [default: 1 ms, or that of the rounding if it is more]
+    #[arg(long, value_parser = time, allow_hyphen_values = true)]
+    time_error: Option<f64>,
     #[command(flatten)]
     listening: Listening,
     #[command(flatten)]
@@ -158,6 +162,7 @@ pub(super) fn run_for(arguments: &Arguments, purpose: Purpose) -> Result<Outcome
         listening: &arguments.listening,
         format: arguments.format(),
         rule: arguments.rule.rule,
+        time_error_s: arguments.time_error,
     };
     check_apart(arguments, &job)?;
     job.plots.as_ref().map_or(Ok(()), Plots::make)?;

@@ -9,8 +9,9 @@ use clap::ValueEnum;
 
 use super::inputs::Input;
 use crate::Error;
-use crate::cli::picture::{Target, draw_sheets};
+use crate::cli::picture::{Target, draw_all, draw_sheets};
 use crate::picture::batch::{BatchRow, Order, Ranged, sheet};
+use crate::picture::sheet::sheets_of_times;
 use crate::plot::Figure;
 use crate::report::Report;
 use crate::report::batch::{Digest, Found, Pooled};
@@ -78,6 +79,12 @@ impl Plots {
     pub(super) fn draw(&self, recording: &Path, report: &Report) -> Result<(), Error> {
         let target = Target::new(&self.sheet(recording))?;
         draw_sheets(&target, recording, report)
+    }
+
+    /// Draws the sheets of times that were typed in.
+    pub(super) fn draw_times(&self, list: &Path, report: &Report) -> Result<(), Error> {
+        let target = Target::new(&self.sheet(list))?;
+        draw_all(&target, &sheets_of_times(report))
     }
 }
 
