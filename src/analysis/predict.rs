@@ -54,7 +54,7 @@ struct Law {
     /// Flights with the drag as it is, and off by a standard deviation to both sides.
     flight: FlightLaw,
     off: [FlightLaw; 2],
-    /// σ_e/e.
+    /// Relative standard error of e.
     e_std: f64,
     /// Scatter of ln e from bounce to bounce, and of one at a speed that was not heard.
     bounce_std: f64,

@@ -238,7 +238,8 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
-        let named = self.names.iter().find(|(at, _)| at == value);
+        let there = |at: f64| (self.place(at) - self.place(*value)).abs() < 1e-9;
+        let named = self.names.iter().find(|(at, _)| there(*at));
         if let Some((_, name)) = named {
             return name.clone();
         }
