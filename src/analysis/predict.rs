@@ -17,12 +17,12 @@ pub struct Question {
     pub reach: Option<(usize, f64)>,
 }
 
-/// As many bounces are predicted: of later ones the error is as great as the height.
+/// As many bounces are predicted, which is what two lines of text hold.
 const BOUNCES: usize = 10;
 /// A fall is no higher than this many times the height that a bounce shall reach.
 const HIGHEST: f64 = 1e4;
 /// Halvings of the range of a height: to 10⁻¹² of it.
-const HALVINGS: usize = 54;
+const HALVINGS: usize = 43;
 /// A change of a height of which the change of a rebound is taken, relative.
 const STEP: f64 = 1e-3;
 
@@ -219,7 +219,7 @@ mod tests {
             reach: None,
         };
         let (mut held, mut all) = (0, 0);
-        for _ in 0..60 {
+        for _ in 0..400 {
             let found = asked(times(0.8, 0.01, &mut rng), &question);
             let mut height = 0.5;
             for predicted in &found.rebounds.unwrap().heights_m[..4] {
@@ -230,7 +230,7 @@ mod tests {
             }
         }
         let share = real(held) / real(all);
-        assert!((0.88..=1.0).contains(&share), "{share}");
+        assert!((0.92..=0.97).contains(&share), "{share}");
     }
 
     #[test]
