@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::Error;
-use crate::analysis::{Listener, Settings, analyze_labelled, fit_times};
+use crate::analysis::{Listener, Question, Settings, analyze_labelled, fit_times, predict};
 use crate::audio::{Ending, Stream};
 use crate::report::labels::Marked;
 use crate::report::rule::RuleReport;
@@ -49,6 +49,8 @@ pub(crate) struct Request<'a> {
     pub labels: Option<(&'a Path, Vec<Vec<Marked>>)>,
     /// The rule to judge by.
     pub rule: Option<Rule>,
+    /// What to predict.
+    pub question: Option<Question>,
 }
 
 /// Listens to a stream to its end.
@@ -97,7 +99,7 @@ pub fn fit_labelled(
         settings: settings.clone(),
         channel,
         labels: Some((Path::new("labels"), drops)),
-        rule: None,
+        ..Request::default()
     };
     request.listen(stream, name)
 }
@@ -120,10 +122,11 @@ impl Request<'_> {
         let duration_s = ending.duration_s / settings.time_scale;
         let recording = RecordingInfo::new(sample_rate_hz, duration_s, encoding)
             .with_channel(channel + 1, channels);
-        let analysis = Analysis {
+        let mut analysis = Analysis {
             warnings: analysis.warnings.into_iter().chain(of_reading).collect(),
             ..analysis
         };
+        self.predicted(&mut analysis, &settings);
         let rule = self.judged(&analysis, &settings)?;
         Ok(Report::new(
             name.to_owned(),
@@ -141,6 +144,7 @@ impl Request<'_> {
         let drops: Vec<Vec<(f64, f64)>> = typed.drops_s.iter().map(with_errors).collect();
         let mut analysis = fit_times(&drops, &settings)?;
         analysis.warnings.extend(typed.names());
+        self.predicted(&mut analysis, &settings);
         let last = typed.drops_s.iter().filter_map(|times| times.last());
         let duration_s = last.copied().fold(0.0, f64::max) / settings.time_scale;
         let recording = RecordingInfo::new(0.0, duration_s, typed.in_words());
@@ -152,6 +156,14 @@ impl Request<'_> {
             analysis,
             rule,
         ))
+    }
+
+    fn predicted(&self, analysis: &mut Analysis, settings: &Settings) {
+        if let Some(question) = &self.question {
+            for drop in &mut analysis.drops {
+                drop.prediction = predict(drop, settings, question);
+            }
+        }
     }
 
     fn judged(

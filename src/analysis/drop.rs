@@ -96,6 +96,7 @@ impl Measured {
             bounces: self.bounces,
             observed_time_s: observed_s(timed),
             release: release.transpose()?.flatten(),
+            prediction: None,
             first_rebound: rebound.map(|r| r.rebound()),
             total_time_s: total.map(|t| t.total_time_s),
             restitution: modelled.restitution,
@@ -139,6 +140,7 @@ impl Measured {
             restitution: answer.modelled.restitution,
             estimates: estimates(ratio, None, answer.estimate),
             release: release.transpose()?.flatten(),
+            prediction: None,
             first_rebound: answer.first_rebound,
             scatter: Scatter {
                 timing_std_s: median_std(timed),

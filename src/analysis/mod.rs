@@ -15,6 +15,7 @@ mod listener;
 mod live;
 mod louder_before;
 mod model;
+mod predict;
 mod release;
 mod scene;
 mod stretch;
@@ -26,6 +27,7 @@ pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
 pub use listener::Listener;
 pub use live::{Live, Told};
+pub use predict::{Question, predict};
 pub use times::fit_times;
 
 use crate::Error;

@@ -11,6 +11,7 @@ use super::known::{DECIMALS, one_of};
 use super::labels::LabelArguments;
 use super::listen::{Listening, listen_to_file};
 use super::picture::{Target, check_readable_twice, draw_sheets, figures};
+use super::predict::PredictArguments;
 use super::rule::RuleArguments;
 use crate::Error;
 use crate::audio::Stream;
@@ -64,6 +65,8 @@ pub(super) struct Arguments {
     #[command(flatten)]
     labels: LabelArguments,
     #[command(flatten)]
+    predict: PredictArguments,
+    #[command(flatten)]
     rule: RuleArguments,
     #[command(flatten)]
     document: DocumentArguments,
@@ -89,6 +92,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let request = Request {
         labels,
         rule: arguments.rule.rule,
+        question: arguments.predict.question(),
         ..arguments.listening.request()
     };
     if arguments.file.is_dir() {

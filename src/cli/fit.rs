@@ -12,6 +12,7 @@ use super::document::DocumentArguments;
 use super::known::{DECIMALS, Known, Word, one_of};
 use super::listen::name;
 use super::picture::{Target, check_readable_twice, draw_all};
+use super::predict::PredictArguments;
 use super::quantity::time;
 use super::rule::RuleArguments;
 use crate::Error;
@@ -69,6 +70,8 @@ pub(super) struct Arguments {
     /// Draw flights, e and heights into this picture; of several drops OUT-1.svg, OUT-2.svg, …
     #[arg(long, value_name = "OUT.svg|png")]
     plot: Option<PathBuf>,
+    #[command(flatten)]
+    predict: PredictArguments,
     #[command(flatten)]
     rule: RuleArguments,
     #[command(flatten)]
@@ -150,6 +153,7 @@ fn report(arguments: &Arguments) -> Result<Report, Error> {
     let request = Request {
         settings: arguments.known.settings(),
         rule: arguments.rule.rule,
+        question: arguments.predict.question(),
         ..Request::default()
     };
     let bytes = if arguments.file == Path::new("-") {
@@ -159,11 +163,27 @@ fn report(arguments: &Arguments) -> Result<Report, Error> {
     } else {
         fs::read(&arguments.file)?
     };
-    let typed = times::read(&bytes, arguments.reading())?;
-    let std_s = arguments
-        .time_error
-        .unwrap_or(USUAL_ERROR_S.max(typed.rounding_std_s));
-    request.fit(&typed, std_s, &name(&arguments.file))
+    let named = name(&arguments.file);
+    of_list(
+        &bytes,
+        arguments.reading(),
+        arguments.time_error,
+        &request,
+        &named,
+    )
+}
+
+/// The report of a list of this name, each of its times with this standard error or that of its rounding.
+pub(super) fn of_list(
+    bytes: &[u8],
+    reading: Reading,
+    time_error_s: Option<f64>,
+    request: &Request<'_>,
+    name: &str,
+) -> Result<Report, Error> {
+    let typed = times::read(bytes, reading)?;
+    let std_s = time_error_s.unwrap_or(USUAL_ERROR_S.max(typed.rounding_std_s));
+    request.fit(&typed, std_s, name)
 }
 
 impl Arguments {

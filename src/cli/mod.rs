@@ -2,6 +2,7 @@
 
 mod analyze;
 mod batch;
+mod compare;
 mod completions;
 mod document;
 mod evaluate;
@@ -14,6 +15,7 @@ mod listen;
 mod meant;
 mod output;
 mod picture;
+mod predict;
 mod quantity;
 mod rule;
 mod sha256;
@@ -61,6 +63,7 @@ const LONG_VERSION: &str = concat!(
   bounce-audio analyze drop.wav                   what a recording says of the ball
   bounce-audio analyze drop.wav --height 30.5cm   the same, with the height known
   bounce-audio batch recordings                   a table of many recordings
+  bounce-audio compare cold warm --height 1m      groups of them against each other
   bounce-audio fit times.csv --height 30.5cm      impact times typed in
   bounce-audio synth --preset pingpong -o a.wav   a recording to try it with
   bounce-audio solve --bounces 70 --total-time 7.5s --height 30.5cm --mass 2.5g
@@ -77,6 +80,7 @@ struct Arguments {
 enum Command {
     Analyze(analyze::Arguments),
     Batch(batch::Arguments),
+    Compare(compare::Arguments),
     Fit(fit::Arguments),
     Solve(solve::Arguments),
     Synth(synth::Arguments),
@@ -127,6 +131,7 @@ impl Command {
         match self {
             Self::Analyze(arguments) => analyze::run(arguments),
             Self::Batch(arguments) => batch::run(arguments),
+            Self::Compare(arguments) => compare::run(arguments),
             Self::Fit(arguments) => fit::run(arguments),
             Self::Solve(arguments) => solve::run(arguments),
             Self::Synth(arguments) => synth::run(arguments),

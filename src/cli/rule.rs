@@ -1,8 +1,12 @@
 //! `--rule`: the rebound that a rule book asks for.
 
-use clap::Args;
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use std::ffi::OsStr;
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
+use clap::{Arg, Args, Command};
+
+use crate::Error;
 use crate::report::Report;
 use crate::report::rule::Outcome;
 use crate::rules::{RULES, Rule, rule};
@@ -12,8 +16,9 @@ use crate::rules::{RULES, Rule, rule};
 #[command(next_help_heading = "Rule books")]
 pub(super) struct RuleArguments {
     /// Judge the rebound that a rule book asks for, from its height and with the drag of the air; mass and diameter are
-    /// those of the rule where --mass and --diameter do not say
-    #[arg(long, value_name = "RULE", value_parser = names())]
+    /// those of the rule where --mass and --diameter do not say. Limits of your own: e=0.75..0.80@254cm,57.7g,67mm, or
+    /// rebound=135..147cm@…, resilience=40..50%@…, with height of release, mass and diameter
+    #[arg(long, value_name = "RULE", value_parser = Rules)]
     pub rule: Option<Rule>,
 }
 
@@ -41,10 +46,37 @@ pub(super) const fn status(outcome: Outcome) -> u8 {
     }
 }
 
-/// Names, of which the help says what they stand for and where.
+/// Names, of which the help says what they stand for and where, and limits of one's own.
+#[derive(Debug, Clone, Copy)]
+struct Rules;
+
+impl TypedValueParser for Rules {
+    type Value = Rule;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        argument: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<Rule, clap::Error> {
+        let limits = value.to_str().filter(|text| text.contains(['=', '@']));
+        let Some(limits) = limits else {
+            return names().parse_ref(command, argument, value);
+        };
+        let said = |e: Error| clap::Error::raw(ErrorKind::ValueValidation, e.to_string() + "\n");
+        Rule::of_limits(limits).map_err(|e| said(e).with_cmd(command))
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        Some(Box::new(named()))
+    }
+}
+
+fn named() -> impl Iterator<Item = PossibleValue> {
+    let named = |rule: &Rule| PossibleValue::new(rule.name).help(rule.in_words());
+    RULES.iter().map(named)
+}
+
 fn names() -> impl TypedValueParser<Value = Rule> {
-    let values = RULES
-        .iter()
-        .map(|rule| PossibleValue::new(rule.name).help(rule.in_words()));
-    PossibleValuesParser::new(values).try_map(|name| rule(&name))
+    PossibleValuesParser::new(named()).try_map(|name| rule(&name))
 }

@@ -1,129 +1,118 @@
-//! Error against speed: a mark for each way of timing and each model, and the limit.
+//! Error and speed of every way of analysis: a row for each, a dot with the range of its error.
 
 use super::rows::{Evaluation, Row};
 use crate::plot::{
-    Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side, Stroke,
+    Axis, Band, Colour, Curve, Dots, Figure, Layer, Panel, Row as PanelRow, Shape, Stroke,
 };
 
-/// Room left around the marks, as a factor on both axes.
-const ROOM: f64 = 3.0;
+/// Room left around the marks, as a factor.
+const ROOM: f64 = 1.5;
+/// Height in pixels of each row, and of what stands around them.
+const ROW_PX: u32 = 44;
+const AROUND_ROWS_PX: u32 = 260;
+const LEAST_ROWS: u32 = 3;
+/// Half the width of a range, against that of a row.
+const REACH: f64 = 0.12;
 
-/// Where the line stands if the limit was not measured, in seconds of audio per second.
-const UNMEASURED_LIMIT: f64 = 1e4;
+/// What a panel shows of a row: a value, and the far end of its range; none where so much was lost that it has none.
+type Mark = (f64, Option<f64>);
 
-/// Names of marks stand at least this factor apart, or one would cover the other.
-const NAMES_APART: f64 = 1.2;
-
-/// One way of analysis: its name, its speed, and two quantiles of an error.
-struct Mark {
-    name: String,
-    speed: f64,
-    median: f64,
-    /// None where so much was lost that it is infinite.
-    upper: Option<f64>,
-}
-
-/// On the left the error of the times of each way of timing, on the right the error of e of every way and model, against
-/// speed on logarithmic axes, with the speed of only reading the files as a line. Ways that found nothing have no mark.
+/// For each way of timing and model a row: the median error of the times up to the 95th percentile, that of e up to the
+/// 90th, and the speed, with that of only reading the files as a line. What found nothing has its name and no dots.
 #[must_use]
 pub fn figure(evaluation: &Evaluation) -> Figure {
-    // The model does not move the times: the first of each way of timing stands for all.
-    let mut timings: Vec<&str> = Vec::new();
-    let times = evaluation.rows.iter().filter(|row| {
-        let new = !timings.contains(&row.timing.as_str());
-        timings.push(&row.timing);
-        new
-    });
-    let times = times.filter_map(|row| {
+    let rows = &evaluation.rows;
+    let times = |row: &Row| {
         let upper = row.timing_error_p95_s.map(|s| 1e6 * s);
-        let median = 1e6 * row.timing_error_median_s?;
-        mark(row, row.timing.clone(), median, upper)
-    });
-    let restitutions = evaluation.rows.iter().filter_map(|row| {
-        let (median, upper) = (row.restitution_error_median?, row.restitution_error_p90);
-        mark(row, format!("{}, {}", row.timing, row.model), median, upper)
-    });
-    let limit = evaluation.limit_audio_s_per_s.unwrap_or(UNMEASURED_LIMIT);
-    let title = format!("Error against speed, {} recordings", evaluation.files);
-    let panels = vec![
-        panel(
-            "timing error (µs)",
-            "95th percentile",
-            times.collect(),
-            limit,
-        ),
-        panel(
-            "error of e",
-            "90th percentile",
-            restitutions.collect(),
-            limit,
-        ),
-    ];
-    Figure::new(title, panels)
-}
-
-/// None of what has no place on logarithmic axes.
-fn mark(row: &Row, name: String, median: f64, upper: Option<f64>) -> Option<Mark> {
-    let speed = row.audio_s_per_s?;
-    (median > 0.0 && upper.is_none_or(|u| u > 0.0) && speed > 0.0).then_some(Mark {
-        name,
-        speed,
-        median,
-        upper,
-    })
-}
-
-fn panel(error: &str, upper: &str, mut marks: Vec<Mark>, limit: f64) -> Panel {
-    marks.sort_by(|a, b| a.median.total_cmp(&b.median));
-    let lowest = marks.first().map_or(1.0, |m| m.median);
-    let highest = marks
-        .iter()
-        .map(|m| m.upper.unwrap_or(m.median))
-        .fold(2.0 * lowest, f64::max);
-    let slowest = marks.iter().map(|m| m.speed).fold(limit, f64::min);
-    let fastest = marks.iter().map(|m| m.speed).fold(limit, f64::max);
-    // The legend stands below the lowest mark.
-    let errors = (lowest / ROOM.powi(3), highest * ROOM);
-    let dots = |shape: Shape, name: &str, points: Vec<(f64, f64)>| {
-        Layer::Dots(Dots::new(points, shape, Colour::BLUE).named(name))
+        Some((1e6 * row.timing_error_median_s?, upper))
     };
-    let speed = "speed (seconds of audio per second of one core)";
-    let mut panel = Panel::new(
-        Axis::logarithmic(speed, slowest / ROOM, fastest * ROOM),
-        Axis::logarithmic(error, errors.0, errors.1),
-    )
-    .legend_at(Corner::LowerLeft)
-    .with(Layer::Curve(
-        Curve::new(vec![(limit, errors.0), (limit, errors.1)], Colour::BLACK)
-            .stroke(Stroke::Dashed)
-            .named("limit: reading the files and summing squares"),
-    ))
-    .with(dots(
-        Shape::Disc,
-        "median",
-        marks.iter().map(|m| (m.speed, m.median)).collect(),
-    ))
-    .with(dots(
-        Shape::Ring,
-        upper,
-        marks
-            .iter()
-            .filter_map(|m| Some((m.speed, m.upper?)))
-            .collect(),
-    ));
-    // All names stand in one column, in the order of the marks.
-    let beside = marks.iter().map(|m| m.speed).fold(0.0, f64::max);
-    let mut last = 0.0;
-    for mark in marks {
-        last = mark.median.max(NAMES_APART * last);
-        panel = panel.with(Layer::Note(Note {
-            at: (beside, last),
-            side: Side::Right,
-            text: mark.name,
-            colour: Colour::BLUE,
-        }));
+    let restitutions = |row: &Row| Some((row.restitution_error_median?, row.restitution_error_p90));
+    let speeds = |row: &Row| row.audio_s_per_s.map(|speed| (speed, Some(speed)));
+    let limit = evaluation.limit_audio_s_per_s;
+    let panels = vec![
+        panel(rows, &times, None, true).headed("Times"),
+        panel(rows, &restitutions, None, false).headed("e"),
+        panel(rows, &speeds, limit, false).headed("Speed"),
+    ];
+    let labels = ["error (µs)", "error of e", "seconds of audio per second"];
+    let panels = panels.into_iter().zip(labels).map(|(mut panel, label)| {
+        panel.x.label = label.to_owned();
+        panel
+    });
+    let count = u32::try_from(rows.len())
+        .unwrap_or(u32::MAX)
+        .max(LEAST_ROWS);
+    Figure {
+        rows: vec![PanelRow {
+            height: 1,
+            panels: panels.collect(),
+        }],
+        size: (
+            1400,
+            count.saturating_mul(ROW_PX).saturating_add(AROUND_ROWS_PX),
+        ),
+        subtitle: Some(
+            "dot: median; bar: up to the 95th percentile of times, the 90th of e".to_owned(),
+        ),
+        ..Figure::new(
+            format!(
+                "Ways of timing and models on {} recordings",
+                evaluation.files
+            ),
+            Vec::new(),
+        )
     }
-    panel
+}
+
+/// A panel with a row for each way; the first has their names.
+fn panel(
+    rows: &[Row],
+    mark: &dyn Fn(&Row) -> Option<Mark>,
+    limit: Option<f64>,
+    names: bool,
+) -> Panel {
+    let marks: Vec<(f64, Mark)> = (1_u32..)
+        .zip(rows.iter().rev())
+        .filter_map(|(place, row)| Some((f64::from(place), mark(row)?)))
+        // Nothing else has a place on a logarithmic axis.
+        .filter(|(_, (value, upper))| *value > 0.0 && upper.is_none_or(|u| u > 0.0))
+        .collect();
+    let values = marks
+        .iter()
+        .flat_map(|(_, (value, upper))| [Some(*value), *upper]);
+    let values: Vec<f64> = values.flatten().chain(limit).collect();
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(0.0, f64::max);
+    let (low, high) = if values.is_empty() {
+        (1.0, 10.0)
+    } else {
+        (low / ROOM, high * ROOM)
+    };
+    let named = (1_u32..).zip(rows.iter().rev());
+    let named = named.filter(|_| names);
+    let named =
+        named.map(|(place, row)| (f64::from(place), format!("{}, {}", row.timing, row.model)));
+    let top = f64::from(u32::try_from(rows.len()).unwrap_or(u32::MAX).max(1)) + 0.8;
+    let mut panel = Panel::new(
+        Axis::logarithmic("", low, high).with_ticks(5),
+        Axis::named(named.collect(), 0.2, top),
+    );
+    if let Some(limit) = limit {
+        let line = Curve::new(vec![(limit, 0.2), (limit, top)], Colour::BLACK);
+        let line = line.stroke(Stroke::Dashed).named("only reading");
+        panel = panel.with(Layer::Curve(line));
+    }
+    for (place, (value, upper)) in &marks {
+        let range = (*value, upper.unwrap_or(high));
+        let bar = Band::bar(range, *place, REACH, Colour::BLUE);
+        panel = panel.with(Layer::Band(bar));
+    }
+    let dots = marks.iter().map(|(place, (value, _))| (*value, *place));
+    panel.with(Layer::Dots(Dots::new(
+        dots.collect(),
+        Shape::Disc,
+        Colour::BLUE,
+    )))
 }
 
 #[cfg(test)]
@@ -131,12 +120,8 @@ mod tests {
     use super::*;
     use crate::plot::to_svg;
 
-    #[test]
-    fn every_way_that_found_something_has_its_name_in_the_picture() {
-        let empty = Evaluation::of(&[], Some(1e4));
-        let svg = to_svg(&figure(&empty)).unwrap();
-        assert!(svg.contains("limit: reading the files") && !svg.contains("correlation"));
-        let row = |model: &str, found: bool| Row {
+    fn row(model: &str, found: bool) -> Row {
+        Row {
             timing: "correlation".to_owned(),
             model: model.to_owned(),
             timing_error_median_s: found.then_some(1e-6),
@@ -145,18 +130,39 @@ mod tests {
             restitution_error_p90: found.then_some(1e-2),
             audio_s_per_s: Some(200.0),
             ..Row::default()
-        };
+        }
+    }
+
+    fn discs(svg: &str) -> usize {
+        svg.split("<circle")
+            .skip(1)
+            .filter(|c| c.contains("fill=\"#0072B2\""))
+            .count()
+    }
+
+    #[test]
+    fn every_way_has_its_name_once_and_a_dot_for_what_it_found() {
+        let empty = Evaluation::of(&[], Some(1e4));
+        let svg = to_svg(&figure(&empty)).unwrap();
+        assert!(svg.contains("only reading") && !svg.contains("correlation"));
         let full = Evaluation {
             rows: vec![row("auto", true), row("drag", true), row("speed", false)],
             ..empty
         };
         let svg = to_svg(&figure(&full)).unwrap();
-        assert!(svg.contains("correlation, auto") && svg.contains("correlation, drag"));
-        assert!(!svg.contains("correlation, speed"));
+        for name in [
+            "correlation, auto",
+            "correlation, drag",
+            "correlation, speed",
+        ] {
+            assert_eq!(svg.matches(name).count(), 1, "{name}");
+        }
+        // Two ways with three dots each, and the speed of the third.
+        assert_eq!(discs(&svg), 7);
         // What lost too much for its 90th percentile still has its median.
         let mut rows = full.rows.clone();
         rows[1].restitution_error_p90 = None;
         let svg = to_svg(&figure(&Evaluation { rows, ..full })).unwrap();
-        assert!(svg.contains("correlation, drag"));
+        assert_eq!(discs(&svg), 7);
     }
 }

@@ -10,6 +10,10 @@ use crate::units::real;
 /// Residuals and e are not shown more closely than this.
 const LEAST_REACH_PERCENT: f64 = 0.01;
 const LEAST_RANGE: f64 = 0.002;
+/// Fewer points than this show nothing that their numbers would not.
+const LEAST_POINTS: usize = 3;
+/// Fewer flights than this leave nothing that could be told from the model.
+const LEAST_LEFT: usize = 5;
 /// Steps of a line over speeds.
 const STEPS: u8 = 60;
 
@@ -53,16 +57,34 @@ impl<'a> Bounces<'a> {
         }
     }
 
+    /// The panels that these bounces fill: each has the points that it needs.
+    pub(super) fn panels(&self) -> Vec<Panel> {
+        let panels = [
+            (LEAST_POINTS, self.flights()),
+            (LEAST_LEFT - 1, self.restitutions()),
+            (LEAST_LEFT, self.residuals()),
+            (LEAST_POINTS, self.heights()),
+        ];
+        let filled = panels.into_iter().filter(|(least, panel)| {
+            let dots = panel.layers.iter().filter_map(|layer| match layer {
+                Layer::Dots(dots) => Some(dots.points.len()),
+                _ => None,
+            });
+            dots.max().unwrap_or(0) >= *least
+        });
+        filled.map(|(_, panel)| panel).collect()
+    }
+
     /// The flights against their number, on a logarithmic axis, with line and band.
-    pub(super) fn flights(&self) -> Panel {
+    fn flights(&self) -> Panel {
         let (points, errors) = self.points(|i| Some((1e3 * i.interval_s?, ln_interval_std(i))));
         let line = self.line.iter().map(|t| 1e3 * t);
         let (low, high) = around_by_ratio(points.iter().map(|p| p.1).chain(line.clone()), 0.06);
         let errors = points.iter().zip(errors).map(|(p, e)| p.1 * e);
         let errors: Vec<f64> = errors.collect();
-        let panel = Panel::new(self.numbers(), Axis::logarithmic("T (ms)", low, high))
-            .headed("Flight T, logarithmic");
-        let panel = self.banded(panel, |t, _| 1e3 * t);
+        let panel =
+            Panel::new(self.numbers(), Axis::logarithmic("T (ms)", low, high)).headed("Flights");
+        let panel = self.banded(panel, Some("95 % of e"), |t, _| 1e3 * t);
         self.lined(panel, line.collect(), "model").with(Layer::Dots(
             Dots::new(points, Shape::Point, Colour::BLUE)
                 .with_errors(errors)
@@ -71,7 +93,7 @@ impl<'a> Bounces<'a> {
     }
 
     /// What the line leaves of ln T, in percent, with the error of each flight by its times.
-    pub(super) fn residuals(&self) -> Panel {
+    fn residuals(&self) -> Panel {
         let residual = |number: usize, interval_s: f64| {
             let expected = self.line.get(number)?;
             Some(100.0 * (interval_s / expected).ln())
@@ -84,16 +106,16 @@ impl<'a> Bounces<'a> {
         let (points, errors): (Vec<_>, Vec<_>) = rows.unzip();
         let (low, high) = most(&points, &errors);
         let reach = high.max(-low).max(LEAST_REACH_PERCENT);
-        let residual = Axis::linear("ln T − model (%)", -reach, reach).with_ticks(5);
-        let panel = Panel::new(self.numbers(), residual).headed("Residuals of ln T");
-        let panel = self.banded(panel, |t, expected| 100.0 * (t / expected).ln());
+        let residual = Axis::linear("T − model (%)", -reach, reach).with_ticks(5);
+        let panel = Panel::new(self.numbers(), residual).headed("Flights, less the model");
+        let panel = self.banded(panel, None, |t, expected| 100.0 * (t / expected).ln());
         let zero = vec![(panel.x.from, 0.0), (panel.x.to, 0.0)];
         let zero = Curve::new(zero, Colour::RED).stroke(Stroke::Dashed);
         with_points(panel.with(Layer::Curve(zero)), points, errors)
     }
 
     /// e of each impact against its speed, with the line of the model.
-    pub(super) fn restitutions(&self) -> Panel {
+    fn restitutions(&self) -> Panel {
         let impacts = self.drop.impacts.iter();
         let rows = impacts.filter_map(|i| {
             let b = &i.bounce;
@@ -112,25 +134,27 @@ impl<'a> Bounces<'a> {
         });
         let law: Vec<(f64, f64)> = law.collect();
         let (low, high) = most(&points, &errors);
-        let (low, high) = around(law.iter().map(|p| p.1).chain([low, high]), 0.0);
-        let (low, high) = at_least((low, high), LEAST_RANGE);
-        let speed = Axis::logarithmic("impact speed (m/s)", slow, fast);
-        let mut panel =
-            Panel::new(speed, Axis::linear("e", low, high).with_ticks(6)).headed("e by speed");
         let interval = self.drop.restitution.as_ref();
         let interval = interval.and_then(|r| Some((r.estimate.value, r.estimate.interval95?)));
+        // The interval is what the panel tells: it is within the axis however few the points.
+        let ends = interval.iter().flat_map(|(_, ends)| *ends);
+        let (low, high) = around(law.iter().map(|p| p.1).chain([low, high]).chain(ends), 0.02);
+        let (low, high) = at_least((low, high), LEAST_RANGE);
+        let speed = Axis::logarithmic("impact speed (m/s)", slow, fast);
+        let mut panel = Panel::new(speed, Axis::linear("e", low, high).with_ticks(6))
+            .headed("e of each bounce");
         if let Some((e, [from, to])) = interval {
             let band = law.iter().map(|(v, at)| (*v, at * from / e, at * to / e));
-            panel = panel.with(band_layer(band.collect()));
+            panel = panel.with(band_layer(band.collect(), None));
         }
         if !law.is_empty() {
-            panel = panel.with(Layer::Curve(Curve::new(law, Colour::RED).named("model")));
+            panel = panel.with(Layer::Curve(Curve::new(law, Colour::RED)));
         }
         with_points(panel, points, errors)
     }
 
     /// Heights of the rebounds against their number, on a logarithmic axis.
-    pub(super) fn heights(&self) -> Panel {
+    fn heights(&self) -> Panel {
         let height = |i: &Impact| {
             let std_m = i.rebound_height_std_m.unwrap_or(0.0);
             Some((1e2 * i.rebound_height_m?, 1e2 * std_m))
@@ -138,7 +162,7 @@ impl<'a> Bounces<'a> {
         let (points, errors) = self.points(height);
         let (low, high) = around_by_ratio(points.iter().map(|p| p.1), 0.06);
         Panel::new(self.numbers(), Axis::logarithmic("height (cm)", low, high))
-            .headed("Rebound heights g·T²/8, logarithmic")
+            .headed("Rebounds g·T²/8")
             .with(Layer::Dots(
                 Dots::new(points, Shape::Point, Colour::BLUE).with_errors(errors),
             ))
@@ -169,7 +193,7 @@ impl<'a> Bounces<'a> {
     }
 
     /// Adds the band between both ends of e, each scaled by a function of its interval and that of the line.
-    fn banded(&self, panel: Panel, scaled: impl Fn(f64, f64) -> f64) -> Panel {
+    fn banded(&self, panel: Panel, name: Option<&str>, scaled: impl Fn(f64, f64) -> f64) -> Panel {
         let Some([low, high]) = &self.ends else {
             return panel;
         };
@@ -178,18 +202,19 @@ impl<'a> Bounces<'a> {
             let (a, b) = (scaled(a, line), scaled(b, line));
             (real(n + 1), a.min(b), a.max(b))
         });
-        panel.with(band_layer(points.collect()))
+        panel.with(band_layer(points.collect(), name))
     }
 }
 
 /// Variances of ln T are not taken to be less than this, or the flights with the best times alone would place the line.
 const LEAST_VARIANCE: f64 = 1e-12;
 
-fn band_layer(points: Vec<(f64, f64, f64)>) -> Layer {
+/// The 95 % interval of e; the first panel names it for all.
+fn band_layer(points: Vec<(f64, f64, f64)>, name: Option<&str>) -> Layer {
     Layer::Band(Band {
         points,
         colour: Colour::ORANGE,
-        name: Some("95 % of e".to_owned()),
+        name: name.map(str::to_owned),
     })
 }
 
@@ -217,16 +242,16 @@ fn most(points: &[(f64, f64)], errors: &[f64]) -> (f64, f64) {
 /// What lies further from the middle eighty percent than this many times their range does not make a panel higher.
 const BEYOND: f64 = 2.0;
 
-/// Points with their errors; those beyond the axis stand at its edge, as rings.
+/// Points with their errors; those off the scale stand at its edge, as rings.
 fn with_points(panel: Panel, points: Vec<(f64, f64)>, errors: Vec<f64>) -> Panel {
     let (low, high) = (panel.y.from, panel.y.to);
     let beyond = points.iter().filter(|p| !(low..=high).contains(&p.1));
     let beyond: Vec<(f64, f64)> = beyond.map(|p| (p.0, p.1.clamp(low, high))).collect();
     let dots = Dots::new(points, Shape::Point, Colour::BLUE).with_errors(errors);
-    let panel = panel.with(Layer::Dots(dots.named("measured")));
+    let panel = panel.with(Layer::Dots(dots));
     if beyond.is_empty() {
         return panel;
     }
     let beyond = Dots::new(beyond, Shape::Circlet, Colour::BLUE);
-    panel.with(Layer::Dots(beyond.named("beyond")))
+    panel.with(Layer::Dots(beyond.named("off the scale")))
 }

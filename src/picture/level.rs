@@ -54,7 +54,7 @@ pub(super) fn panel(report: &Report, drop: Option<&Drop>, sound: &Sound) -> Pane
         (
             rejected.map(|t| (t, None)).collect(),
             Shape::Cross,
-            Colour::RED,
+            Colour::GREY,
             "rejected",
         ),
         (

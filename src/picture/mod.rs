@@ -8,6 +8,7 @@ mod bounces;
 pub mod curve;
 mod fitted;
 mod level;
+mod names;
 mod onsets;
 pub mod sheet;
 pub mod sound;

@@ -3,13 +3,13 @@
 use super::around;
 use super::sound::Onset;
 use crate::plot::{Axis, Band, Colour, Curve, Layer, Panel, Stroke};
-use crate::report::{Drop, decimals};
+use crate::report::{Drop, short_decimals};
 
 /// More samples than this are shown by the least and the greatest of each few.
 const MOST_POINTS: usize = 1000;
 
-/// Errors of times below a thousandth of a microsecond are not written out.
-const LEAST_STD_S: f64 = 1e-9;
+/// Errors of times below this are not written out, in µs.
+const LEAST_STD_US: f64 = 0.01;
 
 /// A panel for each onset.
 pub(super) fn panels(drop: &Drop, onsets: &[Onset]) -> Vec<Panel> {
@@ -26,7 +26,7 @@ fn panel(drop: &Drop, onset: &Onset) -> Panel {
     let (low, high) = around([-greatest, greatest], 0.1);
     let (from, to) = around(points.iter().map(|p| p.0), 0.0);
     let std_ms = 1e3 * impact.time_std_s.unwrap_or(0.0);
-    let amplitude = Axis::linear("amplitude", low, high).with_ticks(5);
+    let amplitude = Axis::linear("amplitude", low, high).with_ticks(0);
     Panel::new(
         Axis::linear("after its onset (ms)", from, to).with_ticks(6),
         amplitude,
@@ -49,22 +49,21 @@ fn panel(drop: &Drop, onset: &Onset) -> Panel {
     ))
 }
 
-/// `0.700217 s ± 0.014 µs`.
+/// `0.70022 s ± 0.03 µs`, the time to 10 µs, which is finer than a picture shows.
 fn time(time_s: f64, std_s: Option<f64>) -> String {
     let Some(std_s) = std_s else {
         return format!("{time_s:.4} s");
     };
-    let places = decimals(std_s).clamp(3, 6);
-    let (std, unit) = if std_s < 1e-3 {
-        (1e6 * std_s, "µs")
+    let (std, unit, least) = if std_s < 1e-3 {
+        (1e6 * std_s, "µs", LEAST_STD_US)
     } else {
-        (1e3 * std_s, "ms")
+        (1e3 * std_s, "ms", 0.0)
     };
-    if std_s < LEAST_STD_S {
-        return format!("{time_s:.places$} s ± < 0.001 µs");
+    if std < least {
+        return format!("{time_s:.5} s within {least} µs");
     }
-    let digits = decimals(std);
-    format!("{time_s:.places$} s ± {std:.digits$} {unit}")
+    let digits = short_decimals(std);
+    format!("{time_s:.5} s ± {std:.digits$} {unit}")
 }
 
 /// The same line with fewer points.

@@ -32,6 +32,8 @@ pub struct Axis {
     pub most_ticks: u8,
     /// Whether it counts: its ticks are whole numbers then.
     pub whole: bool,
+    /// Names in place of numbers, each with its value.
+    pub names: Vec<(f64, String)>,
 }
 
 /// Ticks of an axis that is as long as the picture.
@@ -48,6 +50,16 @@ impl Axis {
             scale: Scale::Linear,
             most_ticks: MOST_TICKS,
             whole: false,
+            names: Vec::new(),
+        }
+    }
+
+    /// An even axis with names in place of numbers, each at its value.
+    #[must_use]
+    pub fn named(names: Vec<(f64, String)>, from: f64, to: f64) -> Self {
+        Self {
+            names,
+            ..Self::linear("", from, to).with_ticks(0)
         }
     }
 
@@ -124,9 +136,14 @@ impl Axis {
             .unwrap_or(10.0 * power)
     }
 
+    /// What is written along the axis.
+    pub(super) fn labels(&self) -> Vec<String> {
+        self.ticks().iter().map(|v| self.format_ext(v)).collect()
+    }
+
     fn ticks(&self) -> Vec<f64> {
         if self.most_ticks == 0 {
-            return Vec::new();
+            return self.names.iter().map(|(value, _)| *value).collect();
         }
         match self.scale {
             Scale::Linear => multiples(self.step(), self.from, self.to),
@@ -148,7 +165,12 @@ impl Axis {
     /// How a tick of a logarithmic axis is written: as a power of ten only where it is one.
     fn logarithmic_label(&self, value: f64) -> String {
         let power = value.log10();
-        if (power - power.round()).abs() < 1e-9 {
+        let powers = self.decades(&[1.0]);
+        if powers.len() > FEW_POWERS {
+            // One style for all: a single long number makes powers of them.
+            if powers.iter().all(|&v| is_short(v)) {
+                return format!("{value}");
+            }
             power_label(value)
         } else if self.decades(&[1.0, 2.0, 5.0]).len() > 1 {
             let decimals = if value < 1.0 { -power.floor() } else { 0.0 };
@@ -216,6 +238,11 @@ impl Ranged for Axis {
 
 impl ValueFormatter<f64> for Axis {
     fn format_ext(&self, value: &f64) -> String {
+        let there = |at: f64| (self.place(at) - self.place(*value)).abs() < 1e-9;
+        let named = self.names.iter().find(|(at, _)| there(*at));
+        if let Some((_, name)) = named {
+            return name.clone();
+        }
         match self.scale {
             Scale::Linear => linear_label(*value, self.step()),
             Scale::Logarithmic => self.logarithmic_label(*value),
@@ -240,12 +267,14 @@ fn linear_label(value: f64, step: f64) -> String {
     format!("{rounded:.decimals$}").replace('-', "−")
 }
 
-/// `10⁵`, or the number itself where it is short.
+/// Whether a power of ten is read more easily as a number.
+fn is_short(value: f64) -> bool {
+    (-3.0..=4.0).contains(&value.log10().round())
+}
+
+/// `10⁵`.
 fn power_label(value: f64) -> String {
     let power = value.log10().round();
-    if (-2.0..=3.0).contains(&power) {
-        return format!("{value}");
-    }
     let exponent = format!("{power}");
     let raised = exponent.chars().map(|c| match c {
         '-' => '⁻',
@@ -262,8 +291,7 @@ mod tests {
     use super::*;
 
     fn labels(axis: &Axis) -> Vec<String> {
-        let ticks = axis.ticks();
-        ticks.iter().map(|tick| axis.format_ext(tick)).collect()
+        axis.labels()
     }
 
     #[test]
@@ -278,7 +306,11 @@ mod tests {
         );
         assert_eq!(
             labels(&Axis::logarithmic("", 1e-4, 10.0)),
-            ["10⁻⁴", "10⁻³", "0.01", "0.1", "1", "10"]
+            ["10⁻⁴", "10⁻³", "10⁻²", "10⁻¹", "10⁰", "10¹"]
+        );
+        assert_eq!(
+            labels(&Axis::logarithmic("", 1e-3, 1.0)),
+            ["0.001", "0.01", "0.1", "1"]
         );
         assert_eq!(Axis::logarithmic("", 10.0, 100.0).light_lines().len(), 8);
     }
@@ -299,6 +331,8 @@ mod tests {
         );
         assert_eq!(labels(&Axis::counting("", 0.5, 2.5)), ["1", "2"]);
         assert!(labels(&Axis::linear("", 0.0, 1.0).with_ticks(0)).is_empty());
+        let names = vec![(2.0, "first".to_owned()), (1.0, "second".to_owned())];
+        assert_eq!(labels(&Axis::named(names, 0.0, 3.0)), ["first", "second"]);
     }
 
     #[test]

@@ -11,7 +11,7 @@ use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontFamily, FontStyle, ShapeStyle, TextStyle, WHITE};
 
-use super::heading::fitting;
+use super::heading::{fitting, width};
 use super::style::{self, FONT};
 use super::{Axis, Colour, Corner, Curve, Figure, Layer, Panel, Stroke, clip};
 use crate::Error;
@@ -40,6 +40,7 @@ pub(super) fn figure<DB: DrawingBackend>(
     };
     let mut rest = area.margin(pen.px(14), 0, 0, 0);
     let titles = [
+        (figure.headline.as_ref(), style::HEADLINE_PX),
         (Some(&figure.title), style::TITLE_PX),
         (figure.subtitle.as_ref(), style::TICK_PX),
     ];
@@ -118,13 +119,14 @@ impl Pen {
     ) -> Result<(), Error> {
         panel.x.check()?;
         panel.y.check()?;
+        let beside = self.beside(panel, area)?;
         let above = panel.heading.is_some() || panel.legend() == Corner::Above;
         let height = if above { self.px(HEADING_PX) } else { 0 };
         let (head, area) = area.split_vertically(height);
         if above {
             let (width, _) = head.dim_in_pixel();
             let right = i32::try_from(width).unwrap_or(0) - self.px(MARGIN_RIGHT_PX);
-            let left = self.px(MARGIN_PX + Y_LABELS_PX);
+            let left = self.px(MARGIN_PX) + beside;
             self.heading(panel, &head, (left, right))?;
         }
         let mut chart = ChartBuilder::on(&area)
@@ -132,7 +134,7 @@ impl Pen {
             .margin_top(self.px(if above { 2 } else { MARGIN_PX }))
             .margin_right(self.px(MARGIN_RIGHT_PX))
             .x_label_area_size(self.px(78))
-            .y_label_area_size(self.px(Y_LABELS_PX))
+            .y_label_area_size(beside)
             .build_cartesian_2d(panel.x.clone(), panel.y.clone())
             .map_err(|e| problem(&e))?;
         self.mesh(&mut chart, panel)?;
@@ -147,6 +149,20 @@ impl Pen {
             }
         }
         self.legend(&mut chart, panel)
+    }
+
+    /// Width of the texts of the vertical axis: alike for all that have numbers, so that panels below each other line up.
+    fn beside<DB: DrawingBackend>(self, panel: &Panel, area: &Area<DB>) -> Result<i32, Error> {
+        let axis = &panel.y;
+        let style = self.text(style::TICK_PX, Colour::BLACK);
+        let widths = axis.labels().into_iter().map(|l| width(area, &l, &style));
+        let widest = widths.collect::<Result<Vec<i32>, Error>>()?;
+        let widest = widest.into_iter().max();
+        Ok(match widest {
+            Some(widest) if !axis.names.is_empty() => widest + self.px(NAMES_PX),
+            Some(_) => self.px(Y_LABELS_PX),
+            None => self.px(UNLABELLED_PX),
+        })
     }
 
     fn mesh<'a, DB: DrawingBackend + 'a>(
@@ -272,8 +288,11 @@ const MARGIN_PX: u32 = 16;
 const MARGIN_RIGHT_PX: u32 = 32;
 /// Width of the texts of a vertical axis.
 const Y_LABELS_PX: u32 = 110;
+/// The same of one without ticks, and what names need beside their own width.
+const UNLABELLED_PX: u32 = 44;
+const NAMES_PX: u32 = 16;
 /// Length of the sample of a line in the legend.
-pub(super) const SAMPLE_PX: u32 = 44;
+pub(super) const SAMPLE_PX: u32 = 36;
 
 #[expect(
     clippy::cast_possible_truncation,

@@ -91,7 +91,8 @@ impl Pen {
     }
 }
 
-fn width<DB: DrawingBackend>(
+/// Width of a text in pixels.
+pub(super) fn width<DB: DrawingBackend>(
     area: &Area<DB>,
     text: &str,
     style: &TextStyle<'_>,

@@ -161,6 +161,18 @@ pub struct Band {
     pub name: Option<String>,
 }
 
+impl Band {
+    /// A bar along the horizontal axis, with its half width on the vertical one.
+    #[must_use]
+    pub fn bar((from, to): (f64, f64), at: f64, reach: f64, colour: Colour) -> Self {
+        Self {
+            points: [from, to].map(|x| (x, at - reach, at + reach)).to_vec(),
+            colour,
+            name: None,
+        }
+    }
+}
+
 /// On which side of its place a text stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Side {

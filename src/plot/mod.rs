@@ -34,6 +34,8 @@ pub use vector::to_svg;
 /// A picture of panels in rows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Figure {
+    /// What it tells, large above all.
+    pub headline: Option<String>,
     /// What the picture shows. A title that is too long is shortened in its middle.
     pub title: String,
     /// A line below the title.
@@ -63,6 +65,7 @@ impl Figure {
     #[must_use]
     pub fn new(title: impl Into<String>, panels: Vec<Panel>) -> Self {
         Self {
+            headline: None,
             title: title.into(),
             subtitle: None,
             rows: vec![Row { height: 1, panels }],

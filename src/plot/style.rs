@@ -49,6 +49,7 @@ impl Colour {
 pub(super) const FONT: &str = "DejaVu Sans, Verdana, sans-serif";
 
 /// Sizes in pixels of the finished picture.
+pub(super) const HEADLINE_PX: u32 = 56;
 pub(super) const TITLE_PX: u32 = 30;
 pub(super) const LABEL_PX: u32 = 26;
 pub(super) const TICK_PX: u32 = 22;
@@ -56,7 +57,7 @@ pub(super) const CURVE_PX: u32 = 3;
 pub(super) const BROAD_PX: u32 = 8;
 pub(super) const DOT_PX: u32 = 9;
 pub(super) const POINT_PX: u32 = 4;
-pub(super) const CROSS_PX: u32 = 5;
+pub(super) const CROSS_PX: u32 = 3;
 /// Opacity of areas.
 pub(super) const PALE: f64 = 0.35;
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::with_error;
+use super::numbers::with_error;
 use crate::fit::Estimate;
 pub use crate::fit::irregular::Kind;
 

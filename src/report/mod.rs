@@ -16,6 +16,7 @@ pub mod json;
 pub mod labels;
 mod model;
 mod numbers;
+mod prediction;
 mod rebound;
 mod rejected;
 mod release;
@@ -33,12 +34,13 @@ pub use estimates::{Estimates, Method, Restitution, Scatter};
 pub use impact::{Bounce, Impact};
 pub use irregular::{Irregular, Kind as IrregularKind};
 pub use model::{Given, Model, Parameters};
-pub(crate) use numbers::{counted, decimals, listed, short, with_error};
+pub(crate) use numbers::{counted, decimals, listed, short, short_decimals};
+pub use prediction::{Prediction, Reach, Rebounds};
 pub use rebound::Rebound;
 pub use rejected::{RejectReason, Rejected};
 pub use release::Release;
 pub use settings::Settings;
-pub(crate) use text::model_name;
+pub(crate) use text::{heard, model_name, range, restitution};
 pub use warning::{Warning, WarningCode};
 pub(crate) use wrap::wrapped_to;
 
@@ -196,6 +198,9 @@ pub struct Drop {
     /// The release by the first flights; null where they do not tell.
     #[serde(default)]
     pub release: Option<Release>,
+    /// What another drop of the ball would do; left out unless that was asked.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub prediction: Option<Prediction>,
     /// How much times and bounces scatter.
     pub scatter: Scatter,
     /// Which model the answer rests on.
@@ -235,6 +240,7 @@ impl Drop {
             },
             first_rebound: None,
             release: None,
+            prediction: None,
             scatter: Scatter {
                 timing_std_s: None,
                 bounce_std: None,

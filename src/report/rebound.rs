@@ -39,6 +39,12 @@ impl Unit {
         Self { name, per_m }
     }
 
+    /// A height that was given, in metres: `30.5 cm`.
+    pub(super) fn bare(self, value_m: f64) -> String {
+        let value = format!("{:.1}", self.per_m * value_m);
+        format!("{} {}", value.trim_end_matches(".0"), self.name)
+    }
+
     /// A value and its standard error, in metres.
     pub(super) fn plus_minus(self, value_m: f64, std_m: f64) -> String {
         let Self { name, per_m } = self;
@@ -57,12 +63,10 @@ pub(super) fn in_words(rebound: &Rebound) -> String {
     let height = |e: &Estimate| unit.plus_minus(e.value, e.std_error.unwrap_or(0.0));
     let percent = 100.0 * rebound.resilience.std_error.unwrap_or(0.0);
     let digits = decimals(percent);
-    let from = unit.per_m * rebound.drop_height_m;
     format!(
-        "{} from {} {}, resilience {:.digits$} ± {percent:.digits$} %",
+        "{} from {}, resilience {:.digits$} ± {percent:.digits$} %",
         height(&rebound.height_m),
-        format!("{from:.1}").trim_end_matches(".0"),
-        unit.name,
+        unit.bare(rebound.drop_height_m),
         100.0 * rebound.resilience.value,
     )
 }

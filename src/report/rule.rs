@@ -197,12 +197,10 @@ impl Unit {
     }
 
     fn range(self, [low, high]: [f64; 2]) -> String {
-        format!(
-            "{:.0} to {:.0} {}",
-            self.per_m * low,
-            self.per_m * high,
-            self.name
-        )
+        let shown = |length_m: f64| format!("{:.1}", self.per_m * length_m);
+        let [low, high] = [low, high].map(shown);
+        let [low, high] = [&low, &high].map(|text| text.trim_end_matches(".0"));
+        format!("{low} to {high} {}", self.name)
     }
 
     fn estimate(self, rebound: &Estimate) -> String {

@@ -6,9 +6,10 @@
 mod catalogue;
 mod decide;
 mod lot;
+mod own;
 mod verdict;
 
-pub use catalogue::{RULES, Rule, rule};
+pub use catalogue::{Mean, RULES, Rule, rule};
 pub use lot::judge_lot;
 
 use crate::Error;

@@ -472,11 +472,23 @@ fn a_batch_draws_its_drops_and_a_sheet_of_each_recording() {
     );
     assert!(output.status.success(), "{}", text(&output.stderr));
     let all = fs::read_to_string(folder.join("all.svg")).unwrap();
-    assert!(all.contains("e of 2 drops") && all.contains("in/steel.wav"));
+    for part in ["mean e = ", ">\n2 drops\n", ">\nsteel\n", ">\ndead\n"] {
+        assert!(all.contains(part), "{part}");
+    }
     for name in ["steel.wav.svg", "dead.wav.svg"] {
         let sheet = fs::read_to_string(folder.join("sheets").join(name)).unwrap();
-        assert!(sheet.contains("Residuals"), "{name}");
+        assert!(sheet.contains("Level of channel"), "{name}");
     }
+    // What has no drop has a row too, and e sorts the rows.
+    synth(folder.join("in/clock.wav"), "metronome", 1);
+    let sorted = ["batch", "in", "--plot", "e.svg", "--plot-order", "e"];
+    assert_eq!(run(&folder, &sorted).status.code(), Some(1));
+    let by_e = fs::read_to_string(folder.join("e.svg")).unwrap();
+    let place = |name: &str| by_e.find(&format!(">\n{name}\n")).unwrap();
+    assert!(by_e.contains("no drop") && place("steel") < place("dead"));
+    let wrong = run(&folder, &["batch", "in", "--plot-order", "size"]);
+    assert_eq!(wrong.status.code(), Some(2));
+    assert!(text(&wrong.stderr).contains("[possible values: file, e]"));
 }
 
 #[test]
@@ -494,4 +506,68 @@ fn two_recordings_never_share_a_picture() {
     let output = run(&folder, &["batch", "a", "--plot", "all.jpg"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(text(&output.stderr).contains(".svg or .png"));
+}
+
+/// A list of two drops of a ball of this e from 1 m.
+fn list(e: f64) -> String {
+    let mut lines = "time [s];drop\n".to_owned();
+    for (drop, e) in [("first", e), ("second", e + 0.004)] {
+        let mut time = 1.0;
+        for n in 0..9 {
+            lines += &format!("{time:.5};{drop}\n");
+            time += 2.0 * (2.0_f64 / 9.81).sqrt() * e.powi(n + 1);
+        }
+    }
+    lines
+}
+
+#[test]
+fn lists_of_times_are_judged_and_grouped_as_recordings_are() {
+    let folder = folder("lists");
+    for (group, e) in [("cold", 0.70), ("warm", 0.80)] {
+        fs::create_dir(folder.join(group)).unwrap();
+        fs::write(folder.join(group).join("times.csv"), list(e)).unwrap();
+    }
+    let lists = ["cold/times.csv", "warm/times.csv"];
+    let known = ["--height", "1m", "--time-error", "0.1ms"];
+    let compared = run(&folder, &[&["compare"], &lists[..], &known[..]].concat());
+    assert_eq!(
+        compared.status.code(),
+        Some(0),
+        "{}",
+        text(&compared.stderr)
+    );
+    let said = text(&compared.stdout);
+    assert!(
+        said.contains("cold: 0.70") && said.contains("warm: 0.80"),
+        "{said}"
+    );
+    assert!(
+        said.contains("2 drops") && said.contains("the difference is real"),
+        "{said}"
+    );
+    let rule = ["--rule", "resilience=45..55%@1m,100g,20mm"];
+    let judged = run(
+        &folder,
+        &[&["batch"], &lists[..], &known[..], &rule[..]].concat(),
+    );
+    let rows = text(&judged.stdout);
+    assert_eq!(judged.status.code(), Some(3), "{}", text(&judged.stderr));
+    assert_eq!(rows.lines().count(), 5, "{rows}");
+    assert!(rows.contains("cold/times.csv,2,2,drop"), "{rows}");
+    let drawn = run(&folder, &["batch", lists[0], "--plots", "sheets"]);
+    assert_eq!(drawn.status.code(), Some(0), "{}", text(&drawn.stderr));
+    assert!(folder.join("sheets/times.csv-2.svg").exists());
+    // A list that is none costs its row, and a folder is searched for recordings alone.
+    fs::write(folder.join("cold/notes.txt"), "no times at all\n").unwrap();
+    let spoilt = run(&folder, &["batch", "cold/notes.txt", "warm/times.csv"]);
+    assert_eq!(spoilt.status.code(), Some(1));
+    assert!(
+        text(&spoilt.stdout).contains("cold/notes.txt,,0,error,"),
+        "{}",
+        text(&spoilt.stdout)
+    );
+    let searched = run(&folder, &["batch", "cold"]);
+    assert_eq!(searched.status.code(), Some(2));
+    assert!(text(&searched.stderr).contains("no recording"));
 }

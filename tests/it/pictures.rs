@@ -1,6 +1,6 @@
 //! Sheets of analyses and of batches: everything is on them once, readable, whatever a report lacks.
 
-use bounce_audio::picture::batch::{self, BatchRow};
+use bounce_audio::picture::batch::{self, BatchRow, Order, Ranged};
 use bounce_audio::picture::sheet::sheets;
 use bounce_audio::picture::sound::Sound;
 use bounce_audio::picture::total_time::{self, Point};
@@ -124,10 +124,10 @@ fn a_sheet_has_a_mark_for_each_impact_and_for_all_that_follows_from_it() {
     let impacts = drop.impacts.len();
     assert!(impacts >= 18, "{impacts}");
     let svg = svg(&drawn(&report, &samples));
-    // Impacts; flights, their residuals and heights; e between them; the samples of four legends.
-    let marks = impacts + 3 * (impacts - 1) + (impacts - 2) + 4;
+    // Impacts; flights, what the model leaves of them, heights; e between them; the samples of two legends.
+    let marks = impacts + 3 * (impacts - 1) + (impacts - 2) + 2;
     let rings = count(&svg, "circle", "fill=\"none\"");
-    let beyond = svg.matches(">\nbeyond\n").count();
+    let beyond = svg.matches(">\noff the scale\n").count();
     let all = count(&svg, "circle", &format!("fill=\"{BLUE}\"")) + rings - beyond;
     assert_eq!(all, marks, "{rings} rings");
     for part in [
@@ -135,10 +135,10 @@ fn a_sheet_has_a_mark_for_each_impact_and_for_all_that_follows_from_it() {
         "e = 0.8",
         "Level of channel 1",
         "Impact 1: 0.",
-        "Flight T",
-        "Residuals of ln T",
-        "e by speed",
-        "Rebound heights",
+        "Flights",
+        "Flights, less the model",
+        "e of each bounce",
+        "Rebounds g·T²/8",
         ">\n1\n",
         ">\n10\n",
     ] {
@@ -182,7 +182,11 @@ fn without_a_drop_there_is_the_level_with_what_was_rejected() {
     assert!(report.drops.is_empty());
     report.file = "a\u{7}<b>&.wav".to_owned();
     let svg = svg(&drawn(&report, &samples));
-    assert!(svg.contains("a?&lt;b&gt;&amp;.wav: no drop found") && svg.contains("rejected"));
+    assert!(
+        svg.contains("a?&lt;b&gt;&amp;.wav")
+            && svg.contains("no drop found")
+            && svg.contains("rejected")
+    );
     // Silence has no level at all.
     let silence = vec![0.0_f32; 64_000];
     report.rejected.clear();
@@ -232,7 +236,7 @@ fn a_long_name_is_shortened_and_each_of_several_drops_has_its_sheet() {
     assert_eq!(figures.len(), 2);
     for (figure, which) in figures.iter().zip(["drop 1 of 2", "drop 2 of 2"]) {
         let svg = svg(std::slice::from_ref(figure));
-        assert!(svg.contains('…') && svg.contains(&format!("end.wav, {which}")));
+        assert!(svg.contains('…') && svg.contains(&format!("{which}: ")));
         assert!(svg.contains("of another drop"));
     }
 }
@@ -240,28 +244,97 @@ fn a_long_name_is_shortened_and_each_of_several_drops_has_its_sheet() {
 fn rows(count: u32) -> Vec<BatchRow> {
     let row = |i: u32| {
         let e = 0.9 + 0.002 * f64::from(i * 7 % 11);
+        let interval95 = (!i.is_multiple_of(5)).then_some([e - 0.004, e + 0.005]);
         BatchRow {
-            name: format!("class of Tuesday/ball-30cm-{i:03}.wav"),
-            restitution: e,
-            interval95: (!i.is_multiple_of(5)).then_some([e - 0.004, e + 0.005]),
+            file: format!("class of Tuesday/ball-30cm-{i:04}.wav"),
+            drop: None,
+            restitution: Ok(Ranged {
+                value: e,
+                interval95,
+            }),
+            outlier: i == 3,
         }
     };
     (0..count).map(row).collect()
 }
 
+const RED: &str = "#D55E00";
+
 #[test]
-fn a_batch_has_a_point_and_a_name_for_each_drop_and_a_histogram_of_all() {
-    let figure = batch::sheet(&rows(20));
+fn a_batch_has_a_point_and_a_short_name_for_each_drop_and_a_histogram_of_all() {
+    let figure = batch::sheet(&rows(20), Some((0.91, 0.002)), Order::File);
     let svg = svg(std::slice::from_ref(&figure));
-    assert_eq!(count(&svg, "circle", BLUE), 20);
-    assert_eq!(svg.matches("…").count(), 20);
-    assert!(svg.contains("e of 20 drops") && svg.contains("standard deviation"));
+    assert_eq!(count(&svg, "circle", BLUE), 19);
+    // The outlier and its sample.
+    assert_eq!(count(&svg, "circle", RED), 2);
+    for part in [
+        "mean e = 0.9100 ± 0.0020",
+        "20 drops of ball-30cm-….wav",
+        ">\n0000\n",
+        ">\n0019\n",
+        "How often",
+    ] {
+        assert!(svg.contains(part), "'{part}' is missing");
+    }
     // Sixteen intervals and a bar for each bin that holds something.
-    assert!(count(&svg, "polygon", BLUE) > 16 + 3);
+    assert!(count(&svg, "polygon", BLUE) > 15 + 3);
     for few in [0, 1, 2, 1_000] {
-        let figure = batch::sheet(&rows(few));
+        let figure = batch::sheet(&rows(few), None, Order::Restitution);
         let svg = self::svg(&[figure]);
-        assert_eq!(count(&svg, "circle", BLUE), few as usize);
+        let outliers = usize::from(few > 3);
+        assert_eq!(count(&svg, "circle", BLUE), few as usize - outliers);
+        assert_eq!(svg.contains("How often"), few == 1_000);
+    }
+}
+
+#[test]
+fn a_batch_shows_what_has_no_e_and_sorts_by_e() {
+    let mut rows = rows(4);
+    rows[1].restitution = Err("no drop".to_owned());
+    rows[0].drop = Some(2);
+    // Names stand from top to bottom in the order of the rows.
+    let order = |order: Order| {
+        let svg = svg(&[batch::sheet(&rows, None, order)]);
+        assert_eq!(svg.matches("no drop").count(), 1);
+        let mut names = texts(&svg);
+        names.retain(|(text, _)| text.starts_with("000"));
+        names.sort_by(|a, b| a.1[1].total_cmp(&b.1[1]));
+        names.into_iter().map(|(text, _)| text).collect::<Vec<_>>()
+    };
+    assert_eq!(order(Order::File), ["0000, 2", "0001", "0002", "0003"]);
+    // e is 0.900, none, 0.906, 0.920.
+    assert_eq!(
+        order(Order::Restitution),
+        ["0003", "0002", "0000, 2", "0001"]
+    );
+}
+
+#[test]
+fn panels_that_a_few_bounces_cannot_fill_are_left_out() {
+    let samples = clicks(0.5, 0.8, 12);
+    let mut report = report(&samples);
+    for (impacts, panels) in [
+        (
+            6,
+            &["Flights", "e of each bounce", "Flights, less", "Rebounds"][..],
+        ),
+        (5, &["Flights", "Rebounds"]),
+        (3, &[]),
+    ] {
+        let drop = &mut report.drops[0];
+        drop.impacts.truncate(impacts);
+        let last = &mut drop.impacts[impacts - 1];
+        (last.interval_s, last.rebound_height_m) = (None, None);
+        last.bounce.restitution = None;
+        let svg = svg(&drawn(&report, &samples));
+        for panel in ["Flights", "e of each bounce", "Flights, less", "Rebounds"] {
+            assert_eq!(
+                svg.contains(panel),
+                panels.contains(&panel),
+                "{impacts} {panel}"
+            );
+        }
+        assert!(svg.contains("Level of channel") && svg.contains("Impact 1: "));
     }
 }
 

@@ -303,3 +303,145 @@ fn rows_with_decimal_commas_have_semicolons_between_them() {
     ]);
     assert_eq!(resumed.status.code(), Some(2));
 }
+
+#[test]
+fn later_bounces_and_the_height_that_reaches_one_are_predicted() {
+    let folder = empty_folder("rebound", "predict");
+    let path = folder.join("times.csv");
+    // e = 0.8 from 1 m, without air.
+    let mut time = 0.0;
+    let times = (0..9).map(|n| {
+        time += 2.0 * (2.0 * 0.64_f64.powi(n) / 9.81).sqrt();
+        format!("{time:.6}")
+    });
+    fs::write(&path, times.collect::<Vec<_>>().join("\n")).unwrap();
+    let list = path.display().to_string();
+    let asked = [
+        "fit",
+        &list,
+        "--contact-time",
+        "1us",
+        "--predict",
+        "1m",
+        "--reach",
+        "1m",
+    ];
+    let document = json(&asked);
+    let prediction = &only_drop(&document)["prediction"];
+    let second = &prediction["rebounds"]["heights_m"][1];
+    assert!(
+        (second["value"].as_f64().unwrap() - 0.4096).abs() < 0.01,
+        "{second}"
+    );
+    let from = &prediction["reach"]["drop_height_m"];
+    assert!(
+        (from["value"].as_f64().unwrap() - 2.441).abs() < 0.05,
+        "{from}"
+    );
+    assert_eq!(prediction["reach"]["bounce"], 2);
+    let said = text(&run(&asked).stdout);
+    assert!(said.contains("predict  from 100 cm back to 64."), "{said}");
+    assert!(
+        said.contains("for bounce 2 to reach 100 cm it must fall from 24"),
+        "{said}"
+    );
+    // What is not asked is left out, and what cannot be asked is one sentence.
+    assert!(
+        only_drop(&json(&["fit", &list]))
+            .get("prediction")
+            .is_none()
+    );
+    for (wrong, part) in [
+        (&["--predict", "0"][..], "height"),
+        (&["--predict", "30.5"], "cm"),
+        (&["--reach-bounce", "3"], "--reach"),
+        (&["--reach", "1m", "--reach-bounce", "11"], "1..=10"),
+    ] {
+        let refused = run(&[&["fit", &list], wrong].concat());
+        assert_eq!(refused.status.code(), Some(2), "{wrong:?}");
+        assert!(
+            text(&refused.stderr).contains(part),
+            "{}",
+            text(&refused.stderr)
+        );
+    }
+}
+
+#[test]
+fn compare_says_on_standard_output_what_batch_says_of_its_groups() {
+    let folder = empty_folder("rebound", "compare");
+    for (group, e) in [("cold", 0.70), ("warm", 0.78)] {
+        fs::create_dir(folder.join(group)).unwrap();
+        for (i, off) in [-0.004, 0.0, 0.004].into_iter().enumerate() {
+            tennis(&folder.join(group), &format!("{i}"), e + off);
+        }
+    }
+    let [cold, warm] = ["cold", "warm"].map(|group| folder.join(group).display().to_string());
+    let known = ["--height", "254cm", "--contact-time", "5ms"];
+    let compared = run(&[&["compare", &cold, &warm], &known[..]].concat());
+    let said = text(&compared.stdout);
+    assert_eq!(
+        compared.status.code(),
+        Some(0),
+        "{}",
+        text(&compared.stderr)
+    );
+    assert!(said.starts_with("Groups compared by e"), "{said}");
+    assert!(
+        said.contains("the difference is") && !said.contains("file,drop"),
+        "{said}"
+    );
+    let batch = run(&[&["batch", &cold, &warm, "--group", "folder"], &known[..]].concat());
+    assert!(text(&batch.stderr).ends_with(&said), "{said}");
+    // One group is nothing to compare, and rows have no place but a file.
+    let one = run(&[&["compare", &cold], &known[..]].concat());
+    assert_eq!(one.status.code(), Some(1));
+    assert!(text(&one.stdout).contains("there is one only"));
+    let rows = run(&["compare", &cold, &warm, "--format", "csv"]);
+    assert_eq!(rows.status.code(), Some(2));
+    assert!(text(&rows.stderr).contains("-o"), "{}", text(&rows.stderr));
+}
+
+#[test]
+fn limits_of_ones_own_judge_as_a_rule_does() {
+    let folder = empty_folder("rebound", "own");
+    let wav = tennis(&folder, "ball", 0.77);
+    let judged = |rule: &str| {
+        let known = ["--height", "254cm", "--contact-time", "5ms", "--rule", rule];
+        run(&[&["analyze", wav.as_str()], &known[..]].concat())
+    };
+    for (rule, status, said) in [
+        ("e=0.75..0.79@254cm,57.7g,67mm", 0, "own: pass; from 254 cm"),
+        ("e=0.80..0.85@254cm,57.7g,67mm", 3, "own: fail; from 254 cm"),
+        (
+            "rebound=135..147cm@254cm,57.7g,67mm",
+            0,
+            "135 to 147 cm are allowed",
+        ),
+    ] {
+        let output = judged(rule);
+        assert_eq!(
+            output.status.code(),
+            Some(status),
+            "{rule} {}",
+            text(&output.stderr)
+        );
+        assert!(
+            text(&output.stdout).contains(said),
+            "{}",
+            text(&output.stdout)
+        );
+    }
+    for (rule, part) in [
+        ("e=0.75..0.79@254cm", "mass and diameter"),
+        ("itf-golf", "possible values"),
+    ] {
+        let output = judged(rule);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            text(&output.stderr).contains(part),
+            "{}",
+            text(&output.stderr)
+        );
+    }
+}

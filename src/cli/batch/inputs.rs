@@ -127,6 +127,17 @@ fn is_recording(path: &Path) -> bool {
     named || (path.is_file() && begins_as_recording(path).unwrap_or(false))
 }
 
+/// Whether a file is a list of times, by its name; what begins as a recording is one, whatever its name. In a folder lists are not
+/// looked for: rows that were written before are such files too.
+pub(super) fn is_list(path: &Path) -> bool {
+    let ending = path.extension().and_then(OsStr::to_str);
+    let listed = ending.is_some_and(|e| LISTS.iter().any(|list| e.eq_ignore_ascii_case(list)));
+    listed && path.is_file() && !begins_as_recording(path).unwrap_or(false)
+}
+
+/// Endings of lists of times.
+const LISTS: [&str; 3] = ["csv", "tsv", "txt"];
+
 fn begins_as_recording(path: &Path) -> io::Result<bool> {
     let mut head = [0; audio::HEAD_BYTES];
     let got = File::open(path)?.read(&mut head)?;

@@ -7,15 +7,17 @@ use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 
 use super::format::{Format, ReadBack};
-use super::inputs::Input;
+use super::inputs::{Input, is_list};
 use super::options::{Given, Pattern, Table};
 use super::plots::Plots;
 use super::screen::remarks;
 use crate::Error;
+use crate::cli::fit::of_list;
 use crate::cli::listen::{Listening, listen_to_file, name};
 use crate::recording::Request;
 use crate::report::batch::{Digest, Found};
 use crate::report::curve::Bounces;
+use crate::report::times::Reading;
 use crate::rules::Rule;
 
 /// What differs from file to file.
@@ -35,6 +37,8 @@ pub(super) struct Job<'a> {
     pub listening: &'a Listening,
     pub format: Format,
     pub rule: Option<Rule>,
+    /// Standard error of the times of lists.
+    pub time_error_s: Option<f64>,
 }
 
 /// An input that is done.
@@ -78,9 +82,24 @@ impl Job<'_> {
             rule: self.rule,
             ..listening.request()
         };
-        let report = listen_to_file(path, &request)?;
-        if let Some(plots) = &self.plots {
-            plots.draw(path, &report)?;
+        let list = is_list(path);
+        let report = if list {
+            let bytes = fs::read(path)?;
+            let named = name(path);
+            of_list(
+                &bytes,
+                Reading::default(),
+                self.time_error_s,
+                &request,
+                &named,
+            )?
+        } else {
+            listen_to_file(path, &request)?
+        };
+        match &self.plots {
+            Some(plots) if list => plots.draw_times(path, &report)?,
+            Some(plots) => plots.draw(path, &report)?,
+            None => {}
         }
         Ok(Done {
             rows: self.format.rows(&report)?,

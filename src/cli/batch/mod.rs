@@ -26,10 +26,10 @@ use super::known::{DECIMALS, one_of};
 use super::listen::{Listening, name};
 use super::output::{followed, place};
 use super::picture::Target as Picture;
+use super::quantity::time;
 use super::rule::RuleArguments;
 use super::{Outcome, output, terminal};
 use crate::Error;
-use crate::picture::batch::sheet;
 use crate::plot::Figure;
 use crate::report::batch::{Digest, Found, answer, conclusion, summary};
 use crate::report::curve::Bounces;
@@ -40,7 +40,7 @@ use format::{Format, ReadBack};
 use inputs::Input;
 use job::{Job, PerFile};
 use options::{Pattern, Table};
-use plots::Plots;
+use plots::{PlotOrder, Plots};
 use progress::Progress;
 use rows_file::{Resumed, RowsFile, check_is_file, partial};
 use screen::Screen;
@@ -71,7 +71,7 @@ A table for --options has a line per file; what is empty is as for all:
   ball-1.wav,30.5cm,2.7g,40mm
   tuesday/ball-1.wav,12in,,")]
 pub(super) struct Arguments {
-    /// Recordings, and folders that hold some
+    /// Recordings, folders that hold some, and lists of impact times (.csv, .tsv, .txt) as for fit
     #[arg(required = true, value_name = "PATH")]
     paths: Vec<PathBuf>,
     /// How many recordings to listen to at once [default: one for each core]
@@ -105,12 +105,18 @@ pub(super) struct Arguments {
     /// Write what all drops say together as JSON: mean, spread, the verdict of a rule, groups
     #[arg(long, value_name = "OUT.json")]
     summary: Option<PathBuf>,
-    /// Draw e of each drop with its interval, and a histogram
+    /// Draw e of each drop with its interval, their mean, and a histogram
     #[arg(long, value_name = "OUT.svg|png")]
     plot: Option<PathBuf>,
+    /// What the rows of that picture are sorted by
+    #[arg(long, value_enum, value_name = "BY", default_value = "file")]
+    plot_order: PlotOrder,
     /// Draw a sheet for each recording into this folder, which is made: NAME.wav.svg
     #[arg(long, value_name = "DIR")]
     plots: Option<PathBuf>,
+    /// Standard error of each time of a list [default: 1 ms, or that of the rounding if it is more]
+    #[arg(long, value_parser = time, allow_hyphen_values = true)]
+    time_error: Option<f64>,
     #[command(flatten)]
     listening: Listening,
     #[command(flatten)]
@@ -121,10 +127,28 @@ pub(super) struct Arguments {
     document: DocumentArguments,
 }
 
+/// What standard output is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Purpose {
+    /// The rows, or a table of them on a terminal.
+    Rows,
+    /// The comparison of groups.
+    Comparison,
+}
+
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
+    run_for(arguments, Purpose::Rows)
+}
+
+pub(super) fn run_for(arguments: &Arguments, purpose: Purpose) -> Result<Outcome, Error> {
     arguments.curve.check()?;
     arguments.document.check()?;
     arguments.listening.request().settings.check()?;
+    if purpose == Purpose::Comparison && arguments.format.is_some() && arguments.output.is_none() {
+        return Err(Error::refused(
+            "compare prints the comparison: --format is of the rows, which go into -o",
+        ));
+    }
     let plot = arguments.plot.as_deref().map(Picture::new).transpose()?;
     let inputs = inputs::gather(&arguments.paths)?;
     let job = Job {
@@ -138,14 +162,16 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         listening: &arguments.listening,
         format: arguments.format(),
         rule: arguments.rule.rule,
+        time_error_s: arguments.time_error,
     };
     check_apart(arguments, &job)?;
     job.plots.as_ref().map_or(Ok(()), Plots::make)?;
     if let Some(note) = job.unmatched() {
         say(&note);
     }
-    let screen = screen(arguments, &job.inputs);
-    let (mut target, mut digests) = Target::open(arguments, &job, screen.is_some())?;
+    let quiet = purpose == Purpose::Comparison;
+    let screen = screen(arguments, &job.inputs).filter(|_| !quiet);
+    let (mut target, mut digests) = Target::open(arguments, &job, quiet || screen.is_some())?;
     if let Some(screen) = screen {
         let done = digests.iter().map(|digest| screen.rows(digest, &[]));
         let _: ControlFlow<()> = print(&(screen.heading() + &done.collect::<String>()))?;
@@ -180,23 +206,27 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     } else {
         summary(&digests)
     });
-    let together = Together::of(&job, arguments.group, &digests);
-    say(&together.said);
+    let together = Together::of(&job, arguments.group(purpose), &digests);
+    if !quiet {
+        say(&together.said);
+    }
     let curve = arguments.curve.told(bounces)?;
     if let Some(path) = &arguments.summary {
         let document = together.json(&digests).to_string() + "\n";
         output::write(path, b"{", document.as_bytes())?;
     }
     if let Some(plot) = plot {
-        plot.draw(&sheet(&plots::rows(&digests)))?;
+        plot.draw(&plots::all(&digests, arguments.plot_order.into()))?;
     }
+    let output = quiet.then(|| together.said.trim_start().to_owned());
+    let (compared, status) = (together.is_compared() || !quiet, together.status);
     let told = together.said + &curve.said;
     keep(arguments, &job, &digests, &told, curve.figure)?;
     let found = |d: &Digest| matches!(d.found, Found::Drops(_));
     let whole = digests.iter().all(found);
     Ok(Outcome {
-        status: if whole { together.status } else { 1 },
-        ..Outcome::of(String::new())
+        status: if whole && compared { status } else { 1 },
+        ..Outcome::of(output.unwrap_or_default())
     })
 }
 
@@ -209,7 +239,7 @@ fn keep(
     curve: Option<Figure>,
 ) -> Result<(), Error> {
     let parts = || {
-        let figures: Vec<Figure> = [sheet(&plots::rows(digests))]
+        let figures: Vec<Figure> = [plots::all(digests, arguments.plot_order.into())]
             .into_iter()
             .chain(curve)
             .collect();
@@ -294,6 +324,18 @@ fn print(text: &str) -> Result<ControlFlow<()>, Error> {
 }
 
 impl Arguments {
+    /// What makes a group, if groups are to be compared.
+    fn group(&self, purpose: Purpose) -> Option<GroupBy> {
+        let named = self.pattern.is_some() || self.options.is_some();
+        let usual = if named {
+            GroupBy::Group
+        } else {
+            GroupBy::Folder
+        };
+        self.group
+            .or((purpose == Purpose::Comparison).then_some(usual))
+    }
+
     fn format(&self) -> Format {
         match self.format.unwrap_or(Format::Csv) {
             Format::Csv if self.decimal == Decimal::Comma => Format::CsvComma,
@@ -305,7 +347,7 @@ impl Arguments {
 /// Where the rows go.
 enum Target {
     Output,
-    /// A terminal has a table in place of them.
+    /// A terminal has a table in place of them, or they are not asked for.
     Nowhere,
     File(RowsFile),
     /// A file that was finished before.
@@ -317,12 +359,12 @@ impl Target {
     fn open(
         arguments: &Arguments,
         job: &Job<'_>,
-        on_screen: bool,
+        no_rows: bool,
     ) -> Result<(Self, Vec<Digest>), Error> {
         let (force, format) = (arguments.force, arguments.format());
         // A link stays a link, so the rows go beside what it leads to.
         let Some(path) = arguments.output.as_deref().map(followed) else {
-            if on_screen {
+            if no_rows {
                 return Ok((Self::Nowhere, Vec::new()));
             }
             let mut output = Self::Output;

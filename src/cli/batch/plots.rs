@@ -5,12 +5,34 @@ use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use clap::ValueEnum;
+
 use super::inputs::Input;
 use crate::Error;
-use crate::cli::picture::{Target, draw_sheets};
-use crate::picture::batch::BatchRow;
+use crate::cli::picture::{Target, draw_all, draw_sheets};
+use crate::picture::batch::{BatchRow, Order, Ranged, sheet};
+use crate::picture::sheet::sheets_of_times;
+use crate::plot::Figure;
 use crate::report::Report;
-use crate::report::batch::{Digest, Found};
+use crate::report::batch::{Digest, Found, Pooled};
+
+/// What the rows of the picture are sorted by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum PlotOrder {
+    /// The files, as they were named; those of a folder by name
+    File,
+    /// e, the greatest first
+    E,
+}
+
+impl From<PlotOrder> for Order {
+    fn from(order: PlotOrder) -> Self {
+        match order {
+            PlotOrder::File => Self::File,
+            PlotOrder::E => Self::Restitution,
+        }
+    }
+}
 
 /// The folder into which each recording's sheet goes.
 #[derive(Debug)]
@@ -58,6 +80,12 @@ impl Plots {
         let target = Target::new(&self.sheet(recording))?;
         draw_sheets(&target, recording, report)
     }
+
+    /// Draws the sheets of times that were typed in.
+    pub(super) fn draw_times(&self, list: &Path, report: &Report) -> Result<(), Error> {
+        let target = Target::new(&self.sheet(list))?;
+        draw_all(&target, &sheets_of_times(report))
+    }
 }
 
 /// `NAME.wav.svg`: with the whole name, so that recordings that differ in their ending alone do not meet.
@@ -67,25 +95,40 @@ fn file_name(recording: &Path) -> OsString {
     name
 }
 
-/// The drops that have an e, each by the name of its recording.
-pub(super) fn rows(digests: &[Digest]) -> Vec<BatchRow> {
+/// All drops on one picture with their mean, and the recordings that have none.
+pub(super) fn all(digests: &[Digest], order: Order) -> Figure {
+    let pooled = Pooled::of(digests);
     let mut rows = Vec::new();
+    let mut number = 0;
     for digest in digests {
-        let Found::Drops(drops) = &digest.found else {
-            continue;
+        let row = |drop: Option<usize>, restitution, outlier| BatchRow {
+            file: digest.file.clone(),
+            drop,
+            restitution,
+            outlier,
         };
-        for (number, drop) in (1..).zip(drops) {
-            let Some(e) = drop.restitution else { continue };
-            let name = match drops.len() {
-                1 => digest.file.clone(),
-                _ => format!("{}, {number}", digest.file),
-            };
-            rows.push(BatchRow {
-                name,
-                restitution: e.value,
+        let drops = match &digest.found {
+            Found::Drops(drops) => drops,
+            Found::Nothing(_) => {
+                rows.push(row(None, Err("no drop".to_owned()), false));
+                continue;
+            }
+            Found::Failed(_) => {
+                rows.push(row(None, Err("failed".to_owned()), false));
+                continue;
+            }
+        };
+        for (i, drop) in (1..).zip(drops) {
+            let e = drop.restitution.map(|e| Ranged {
+                value: e.value,
                 interval95: e.interval95,
             });
+            let e = e.ok_or_else(|| "e not determined".to_owned());
+            let outlier = pooled.outliers.contains(&number);
+            rows.push(row((drops.len() > 1).then_some(i), e, outlier));
+            number += 1;
         }
     }
-    rows
+    let mean = pooled.mean.map(|m| (m.mean, m.mean_std));
+    sheet(&rows, mean, order)
 }

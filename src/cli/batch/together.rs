@@ -47,6 +47,11 @@ impl Together {
         together
     }
 
+    /// Whether groups were compared.
+    pub(super) const fn is_compared(&self) -> bool {
+        self.groups.is_some()
+    }
+
     /// The summary as JSON.
     pub(super) fn json(&self, digests: &[Digest]) -> Value {
         let groups = self

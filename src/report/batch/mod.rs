@@ -319,6 +319,35 @@ fn counts(digests: &[Digest]) -> String {
     line + "\n"
 }
 
+/// What a picture of all drops shows beside each: their mean, and which are far from the rest.
+#[derive(Debug, Clone, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Pooled {
+    /// The mean of the drops that have an e with an error, as [`summary`] says it; none of fewer than two.
+    pub mean: Option<RandomEffects>,
+    /// The outliers among all drops in their order, by their number from 0.
+    pub outliers: Vec<usize>,
+}
+
+impl Pooled {
+    /// Of all drops of these recordings.
+    #[must_use]
+    pub fn of(digests: &[Digest]) -> Self {
+        let drops = digests.iter().flat_map(|digest| match &digest.found {
+            Found::Drops(drops) => drops.as_slice(),
+            _ => &[],
+        });
+        let weighed = drops.enumerate().filter(|(_, d)| measurement(d).is_some());
+        let (numbers, drops): (Vec<usize>, Vec<DropDigest>) = weighed.unzip();
+        let (measurements, _) = levelled(&drops);
+        let far = outliers(&measurements).into_iter();
+        Self {
+            mean: RandomEffects::of(&measurements),
+            outliers: far.map(|o| numbers[o.index]).collect(),
+        }
+    }
+}
+
 /// The mean of the drops, and that without the outliers if there are any.
 fn together(named: &[(String, Measurement)]) -> String {
     let measurements: Vec<Measurement> = named.iter().map(|(_, m)| *m).collect();

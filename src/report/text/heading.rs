@@ -34,7 +34,8 @@ pub(super) fn list(drops: &[Drop]) -> Vec<String> {
     drops.iter().zip(&answers).enumerate().map(line).collect()
 }
 
-fn restitution(drop: &Drop) -> String {
+/// `e = 0.929 ± 0.001`.
+pub(crate) fn restitution(drop: &Drop) -> String {
     let Some(e) = drop.restitution.as_ref().map(|r| r.estimate) else {
         return "e not determined".to_owned();
     };
@@ -44,7 +45,8 @@ fn restitution(drop: &Drop) -> String {
     }
 }
 
-fn heard(drop: &Drop) -> String {
+/// `67 bounces in 5.8 s`.
+pub(crate) fn heard(drop: &Drop) -> String {
     let (bounces, time) = (
         counted(drop.bounces, "bounce"),
         seconds(drop.observed_time_s),

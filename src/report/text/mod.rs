@@ -10,8 +10,10 @@ use super::numbers::listed;
 use super::wrap::wrapped;
 use super::{Drop, Impact, Irregular, Rejected, Report, Warning, WarningCode, batch, rule};
 use details::{basis, ways};
+pub(crate) use heading::{heard, restitution};
 pub(crate) use models::model_name;
 use models::models;
+pub(crate) use words::range;
 
 /// The level of detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use crate::fit::model::Budget;
 use crate::fit::model_selection::ALIKE;
 use crate::fit::{Estimate, ModelKind};
 use crate::report::numbers::{odds, short, short_decimals};
-use crate::report::{Ball, Drop, Given, Model, Report, rebound};
+use crate::report::{Ball, Drop, Given, Model, Report, prediction, rebound};
 
 /// The lines of a drop, and what a rule book says of it.
 pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[String]) {
@@ -27,13 +27,18 @@ pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[Stri
             entry(out, &format!("  {head:<9}{said}"));
         }
     }
+    let predicted = drop.prediction.iter().flat_map(prediction::in_words);
+    for said in predicted {
+        entry(out, &format!("  predict  {said}"));
+    }
     for (i, said) in rule.iter().enumerate() {
         let head = if i == 0 { "rule" } else { "" };
         entry(out, &format!("  {head:<9}{said}"));
     }
 }
 
-fn range(drop: &Drop) -> Option<String> {
+/// `e is between 0.9287 and 0.9307 with 95 % confidence, at 0.19 m/s`.
+pub(crate) fn range(drop: &Drop) -> Option<String> {
     let restitution = drop.restitution.as_ref()?;
     let [low, high] = restitution.estimate.interval95?;
     let digits = short_decimals(restitution.estimate.std_error?);
