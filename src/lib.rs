@@ -114,7 +114,7 @@ pub use stages::*;
 #[expect(clippy::wildcard_imports, reason = "the list above is the only one")]
 use stages::*;
 
-pub use analysis::{Listener, Live, Settings, Told, analyze, analyze_clearest, fit_times};
+pub use analysis::{Hears, Listener, Live, Settings, Told, analyze, analyze_clearest, fit_times};
 pub use error::Error;
 pub use fit::model_selection::Choice as ModelChoice;
 pub use report::{Analysis, Drop, Report, Warning, WarningCode};

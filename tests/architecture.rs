@@ -143,7 +143,7 @@ const SURFACE: [&str; 12] = [
     "pub mod picture; // plots",
     "pub mod recording; // audio",
     "pub mod synth; // lab",
-    "pub use analysis::{Listener, Live, Settings, Told, analyze, analyze_clearest, fit_times};",
+    "pub use analysis::{Hears, Listener, Live, Settings, Told, analyze, analyze_clearest, fit_times};",
     "pub use error::Error;",
     "pub use fit::model_selection::Choice as ModelChoice;",
     "pub use report::{Analysis, Drop, Report, Warning, WarningCode};",

@@ -18,8 +18,6 @@ const MOST_IMPACTS: usize = 50_000;
 #[derive(Debug, Default)]
 pub(super) struct Findings {
     drops: Vec<Measured>,
-    /// How many of the drops were told already, from the first.
-    told: usize,
     impacts: usize,
     /// Two or three impacts, which count if there is no drop: the best of any scene, and what the next best is worth.
     few: Option<few::Heard>,
@@ -73,28 +71,12 @@ impl Findings {
         }
     }
 
-    /// The drops that were not told before, of a recording that goes on.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] for a setting out of range.
-    pub(super) fn tell(
-        &mut self,
-        extent: Extent,
-        settings: &Settings,
-    ) -> Result<Vec<report::Drop>, Error> {
-        let untold = self.drops[self.told..].iter().cloned();
-        let drops = untold.map(|m| m.within(extent, settings)).collect();
-        self.told = self.drops.len();
-        drops
-    }
-
     fn keep_the_surest(&mut self) {
         while self.impacts > MOST_IMPACTS {
             let evidence = |i: &usize| self.drops[*i].evidence_nats;
             let weakest = (0..self.drops.len()).min_by(|a, b| evidence(a).total_cmp(&evidence(b)));
             let Some(weakest) = weakest else { return };
             self.impacts -= self.drops.remove(weakest).impacts.len();
-            self.told -= usize::from(weakest < self.told);
             self.left_out += 1;
         }
     }
@@ -197,27 +179,5 @@ mod tests {
         let left: Vec<f64> = analysis.drops.iter().map(|d| d.evidence_nats).collect();
         assert_eq!(left, [30.0, 40.0]);
         assert_eq!(analysis.warnings[0].code, WarningCode::LeftOut);
-    }
-
-    #[test]
-    fn drops_are_told_once_whichever_are_let_go() {
-        let mut findings = Findings::new(1);
-        let extent = Extent {
-            first_channel: 0,
-            end_s: 20.0,
-        };
-        let told = |findings: &mut Findings| {
-            let drops = findings.tell(extent, &Settings::default()).unwrap();
-            drops.iter().map(|d| d.evidence_nats).collect::<Vec<_>>()
-        };
-        for evidence in [20.0, 30.0] {
-            findings.drops.push(Measured::with_evidence(evidence));
-        }
-        assert_eq!(told(&mut findings), [20.0, 30.0]);
-        findings.impacts = MOST_IMPACTS + 1;
-        findings.keep_the_surest();
-        findings.drops.push(Measured::with_evidence(25.0));
-        assert_eq!(told(&mut findings), [25.0]);
-        assert_eq!(told(&mut findings), [0.0; 0]);
     }
 }

@@ -26,7 +26,7 @@ mod warnings;
 pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
 pub use listener::Listener;
-pub use live::{Live, Told};
+pub use live::{Hears, Live, Told};
 pub use predict::{Question, predict};
 pub use times::fit_times;
 

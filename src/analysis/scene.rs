@@ -49,81 +49,122 @@ pub(super) struct SceneResult {
     pub final_until_s: f64,
 }
 
-/// Listens to the channel of a scene in which impacts stand out most.
-///
-/// `reported_s` are the times of impacts in it that were reported already, with its first part.
-pub(super) fn hear(
-    channels: &[&[f32]],
-    bounds: &Bounds,
-    reported_s: &[f64],
-    detector: &Detector,
-    settings: &Settings,
-) -> Result<SceneResult, Error> {
-    let rate = detector.sample_rate_hz();
-    let sound = |channel: usize| Sound {
-        samples: channels[channel],
-        sample_rate_hz: rate,
-        start_s: frame_time_s(bounds.first, rate),
-    };
-    let heard = (0..channels.len()).map(|channel| detector.events(&sound(channel)));
-    let mut heard: Vec<Vec<Event>> = heard.collect();
-    let clarities: Vec<f64> = heard.iter().map(|events| clarity(events)).collect();
-    let channel = clearest(&clarities);
-    let stretch = Stretch {
-        sound: sound(channel),
-        listened_from_s: frame_time_s(bounds.listened_from, rate),
-    };
-    let events = heard.swap_remove(channel);
-    let mut found = sequence::find(&events);
-    let edge = Edge::of(&stretch, bounds.cut, &found);
-    let few = if found.drops.is_empty() {
-        few::heard(
-            &stretch,
-            &events,
-            detector,
-            edge.final_until_s,
+/// A scene whose chains were found, on the channel in which impacts stand out most, and not measured.
+#[derive(Debug)]
+pub(super) struct Chained<'a> {
+    stretch: Stretch<'a>,
+    channel: usize,
+    clarities: Vec<f64>,
+    /// Whether there was any sound.
+    sound: bool,
+    events: Vec<Event>,
+    /// The chains, and what belongs to none of them.
+    pub found: Found,
+    edge: Edge,
+}
+
+impl<'a> Chained<'a> {
+    pub(super) fn of(channels: &[&'a [f32]], bounds: &Bounds, detector: &Detector) -> Self {
+        let rate = detector.sample_rate_hz();
+        let sound = |channel: usize| Sound {
+            samples: channels[channel],
+            sample_rate_hz: rate,
+            start_s: frame_time_s(bounds.first, rate),
+        };
+        let heard = (0..channels.len()).map(|channel| detector.events(&sound(channel)));
+        let mut heard: Vec<Vec<Event>> = heard.collect();
+        let clarities: Vec<f64> = heard.iter().map(|events| clarity(events)).collect();
+        let channel = clearest(&clarities);
+        let stretch = Stretch {
+            sound: sound(channel),
+            listened_from_s: frame_time_s(bounds.listened_from, rate),
+        };
+        let events = heard.swap_remove(channel);
+        let found = sequence::find(&events);
+        let edge = Edge::of(&stretch, bounds.cut, &found);
+        Self {
+            stretch,
             channel,
-            settings,
-        )?
-    } else {
-        None
-    };
-    let candidate = found.candidate.take();
-    let candidate = candidate.map(|c| Candidate::of_chain(&stretch, c, channel, settings));
-    let rejected = rejected_before(edge.final_until_s, reported_s, &events, &found);
-    let weak = weak_before(edge.final_until_s, &events, &found);
-    let new = found.drops.into_iter();
-    let new = new.filter(|chain| !edge.is_deferred(chain) && !is_reported(chain, reported_s));
-    let mut followed: Vec<Followed<'_>> = new.map(|chain| tail::follow(&stretch, chain)).collect();
+            clarities,
+            sound: channels.iter().any(|c| c.iter().any(|x| *x != 0.0)),
+            events,
+            found,
+            edge,
+        }
+    }
+
+    /// Measures the chains.
+    ///
+    /// `reported_s` are the times of impacts in the scene that were reported already, with its first part.
+    pub(super) fn measured(
+        self,
+        reported_s: &[f64],
+        detector: &Detector,
+        settings: &Settings,
+    ) -> Result<SceneResult, Error> {
+        let Self {
+            stretch,
+            channel,
+            events,
+            mut found,
+            edge,
+            ..
+        } = self;
+        let few = if found.drops.is_empty() {
+            few::heard(
+                &stretch,
+                &events,
+                detector,
+                edge.final_until_s,
+                channel,
+                settings,
+            )?
+        } else {
+            None
+        };
+        let candidate = found.candidate.take();
+        let candidate = candidate.map(|c| Candidate::of_chain(&stretch, c, channel, settings));
+        let rejected = rejected_before(edge.final_until_s, reported_s, &events, &found);
+        let weak = weak_before(edge.final_until_s, &events, &found);
+        let new = found.drops.into_iter();
+        let new = new.filter(|chain| !edge.is_deferred(chain) && !is_reported(chain, reported_s));
+        let kept = followed(&stretch, new);
+        let spans_s: Vec<(f64, f64)> = kept.iter().map(|k| k.chain.span_s()).collect();
+        let drops = kept.into_iter().enumerate().map(|(i, followed)| {
+            let from_s = explained_until_s(i, &spans_s, reported_s);
+            let louder = louder_before::warning(&followed.chain, &events, from_s);
+            let mut measured = drop::measure(&stretch, followed, channel, settings)?;
+            measured.warnings.extend(louder);
+            Ok(measured)
+        });
+        let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
+        Ok(SceneResult {
+            drops,
+            few,
+            candidate: candidate.transpose()?,
+            rejected,
+            weak,
+            strengths: events.iter().map(|e| e.strength).collect(),
+            sound: self.sound,
+            clarities: self.clarities,
+            split: edge.split,
+            final_until_s: edge.final_until_s,
+        })
+    }
+}
+
+/// Chains with their ends, in order of time, but for those that turn out to be the echo of another.
+fn followed<'a>(stretch: &Stretch<'a>, chains: impl Iterator<Item = Chain>) -> Vec<Followed<'a>> {
+    let mut followed: Vec<Followed<'a>> = chains.map(|c| tail::follow(stretch, c)).collect();
     followed.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
-    let mut kept: Vec<Followed<'_>> = Vec::new();
+    let mut kept: Vec<Followed<'a>> = Vec::new();
     for new in followed {
         if !kept.iter().any(|k| is_echo_of(&new.chain, &k.chain)) {
             kept.push(new);
         }
     }
     kept.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
-    let spans_s: Vec<(f64, f64)> = kept.iter().map(|k| k.chain.span_s()).collect();
-    let drops = kept.into_iter().enumerate().map(|(i, followed)| {
-        let from_s = explained_until_s(i, &spans_s, reported_s);
-        let louder = louder_before::warning(&followed.chain, &events, from_s);
-        let mut measured = drop::measure(&stretch, followed, channel, settings)?;
-        measured.warnings.extend(louder);
-        Ok(measured)
-    });
-    let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
-    Ok(SceneResult {
-        drops,
-        few,
-        candidate: candidate.transpose()?,
-        rejected,
-        weak,
-        strengths: events.iter().map(|e| e.strength).collect(),
-        sound: channels.iter().any(|c| c.iter().any(|x| *x != 0.0)),
-        clarities,
-        split: edge.split,
-        final_until_s: edge.final_until_s,
-    })
+    kept
 }
 
 /// The first of the channels that hear most clearly.

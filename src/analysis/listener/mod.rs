@@ -11,11 +11,11 @@ use std::ops::Range;
 use super::Settings;
 use super::drop::Extent;
 use super::findings::Findings;
-use super::scene::{Bounds, hear};
+use super::scene::{Bounds, Chained};
 use crate::Error;
 use crate::detect::Detector;
 use crate::detect::activity_gate::ActivityGate;
-use crate::report::{Analysis, Drop};
+use crate::report::Analysis;
 use crate::units::{frame_at, frame_time_s, frames, length, real, samples_in};
 use held::Held;
 
@@ -178,19 +178,6 @@ impl Listener {
         Ok(result)
     }
 
-    /// The drops found since this was last asked, while the recording goes on: each once, when the sound around it is over,
-    /// which is 3 s after the last that rises.
-    ///
-    /// [`finish`](Self::finish) gives them again, with all others: a drop of two or three impacts is told by that alone, for
-    /// it counts where there is no other.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] for a setting out of range.
-    pub fn new_drops(&mut self) -> Result<Vec<Drop>, Error> {
-        let extent = self.extent();
-        self.findings.tell(extent, &self.settings)
-    }
-
     /// The analysis, and the channel that most of it was heard on.
     ///
     /// # Errors
@@ -277,13 +264,8 @@ impl Listener {
         let reported_s = self
             .findings
             .reported_after(frame_time_s(from, self.sample_rate_hz));
-        let heard = hear(
-            &channels,
-            &bounds,
-            reported_s,
-            &self.detector,
-            &self.settings,
-        )?;
+        let chained = Chained::of(&channels, &bounds, &self.detector);
+        let heard = chained.measured(reported_s, &self.detector, &self.settings)?;
         let final_until = frame_at(heard.final_until_s, self.sample_rate_hz).clamp(from, to);
         self.findings.add(heard);
         Ok(final_until)
@@ -291,7 +273,7 @@ impl Listener {
 }
 
 /// The error of a block whose channels differ in number or length from those announced.
-fn unlike(channels: usize) -> Error {
+pub(super) fn unlike(channels: usize) -> Error {
     let expected = "as many as announced, all of one length";
     Error::argument("channels", real(channels), expected)
 }

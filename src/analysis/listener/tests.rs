@@ -232,24 +232,3 @@ fn a_part_without_a_sample_is_named_by_its_end() {
     let error = listener.finish().unwrap_err().to_string();
     assert!(error.starts_with("end is 0.5"), "{error}");
 }
-
-#[test]
-fn a_drop_is_told_while_the_recording_goes_on() {
-    let samples = recording(20.0, &[2.0, 12.3]);
-    let mut listener = listener();
-    let mut told = Vec::new();
-    for block in samples.chunks(4_410) {
-        listener.push(&[block]).unwrap();
-        told.push(listener.new_drops().unwrap());
-    }
-    let blocks: Vec<usize> = (0..told.len()).filter(|&i| !told[i].is_empty()).collect();
-    // The first drop, long before the second begins.
-    assert!(blocks[0] < 123, "{blocks:?}");
-    let told: Vec<_> = told.into_iter().flatten().collect();
-    let whole = listener.finish().unwrap().1;
-    assert_eq!(
-        told.first().map(|d| &d.impacts),
-        whole.drops.first().map(|d| &d.impacts)
-    );
-    assert!(!told.is_empty() && told.len() <= whole.drops.len());
-}
