@@ -12,6 +12,7 @@ mod known;
 mod labels;
 mod limit;
 mod listen;
+mod live;
 mod meant;
 mod output;
 mod picture;
@@ -47,7 +48,7 @@ macro_rules! internals {
 /// What `--version` says; `-V` says its first line.
 const LONG_VERSION: &str = concat!(
     env!("CARGO_PKG_VERSION"),
-    "\nreads     WAV, FLAC, ALAC, AAC, MP3, Ogg Vorbis",
+    "\nreads     WAV, FLAC, ALAC, AAC, MP3, Ogg Vorbis, AIFF, CAF",
     "\nfeatures  audio, plots, lab, cli",
     internals!(),
 );
@@ -62,6 +63,7 @@ const LONG_VERSION: &str = concat!(
     after_help = "Examples:
   bounce-audio analyze drop.wav                   what a recording says of the ball
   bounce-audio analyze drop.wav --height 30.5cm   the same, with the height known
+  bounce-audio listen                             drops told while they are played
   bounce-audio batch recordings                   a table of many recordings
   bounce-audio compare cold warm --height 1m      groups of them against each other
   bounce-audio fit times.csv --height 30.5cm      impact times typed in
@@ -79,6 +81,7 @@ struct Arguments {
 #[derive(Debug, Subcommand)]
 enum Command {
     Analyze(analyze::Arguments),
+    Listen(live::Arguments),
     Batch(batch::Arguments),
     Compare(compare::Arguments),
     Fit(fit::Arguments),
@@ -130,6 +133,7 @@ impl Command {
     fn run(&self) -> Result<Outcome, Error> {
         match self {
             Self::Analyze(arguments) => analyze::run(arguments),
+            Self::Listen(arguments) => live::run(arguments),
             Self::Batch(arguments) => batch::run(arguments),
             Self::Compare(arguments) => compare::run(arguments),
             Self::Fit(arguments) => fit::run(arguments),

@@ -158,7 +158,7 @@ impl Live {
     ///
     /// # Errors
     /// As for [`new`](Self::new).
-    pub fn finish(mut self) -> Result<Vec<Told>, Error> {
+    pub fn finish(&mut self) -> Result<Vec<Told>, Error> {
         if self.held[0].is_empty() {
             return Ok(Vec::new());
         }

@@ -249,7 +249,7 @@ fn named<'a>(
 }
 
 /// What the drops of one recording say together; nothing of fewer than two with an error.
-pub(super) fn together_of(drops: &[Drop]) -> String {
+pub(crate) fn together_of(drops: &[Drop]) -> String {
     let digests = drops.iter().map(DropDigest::from).enumerate();
     let named = digests.map(|(i, drop)| (format!("drop {}", i + 1), drop));
     of_drops(&named.collect::<Vec<_>>())

@@ -1,7 +1,9 @@
 //! The first line, a line for each of several drops, and the lines that a shell script reads.
 
+use crate::fit::Estimate;
 use crate::report::numbers::{counted, seconds, short, with_error};
 use crate::report::{Drop, Report};
+use crate::units::real;
 
 /// What stands first: of one drop its e.
 pub(super) fn heading(report: &Report) -> String {
@@ -14,7 +16,7 @@ pub(super) fn heading(report: &Report) -> String {
 }
 
 /// `e = 0.929 ± 0.001 (67 bounces in 5.8 s)`.
-pub(super) fn answer(drop: &Drop) -> String {
+pub(crate) fn answer(drop: &Drop) -> String {
     format!("{} ({})", restitution(drop), heard(drop))
 }
 
@@ -43,6 +45,20 @@ pub(crate) fn restitution(drop: &Drop) -> String {
         Some(std) => format!("e = {}", short(e.value, std)),
         None => format!("e = {}", with_error(&e)),
     }
+}
+
+/// `mean 0.912 ± 0.015 of 6 drops`, the error being that by their spread or that by their own errors, whichever is larger;
+/// none of fewer than two.
+pub(crate) fn mean_of(drops: &[Drop]) -> Option<String> {
+    let each = drops.iter().filter_map(|d| d.restitution.as_ref());
+    let each: Vec<Estimate> = each.map(|e| e.estimate).collect();
+    let count = real(each.len());
+    let mean = each.iter().map(|e| e.value).sum::<f64>() / count;
+    let square: f64 = each.iter().map(|e| (e.value - mean).powi(2)).sum();
+    let claimed: f64 = each.iter().filter_map(|e| e.std_error).map(|s| s * s).sum();
+    let std = (square / (count - 1.0)).max(claimed / count).sqrt() / count.sqrt();
+    let of = counted(each.len(), "drop");
+    (each.len() > 1).then(|| format!("mean {} of {of}", short(mean, std)))
 }
 
 /// `67 bounces in 5.8 s`.

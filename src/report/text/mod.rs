@@ -6,11 +6,12 @@ mod models;
 mod table;
 mod words;
 
+pub(crate) use super::batch::together_of;
 use super::numbers::listed;
 use super::wrap::wrapped;
-use super::{Drop, Impact, Irregular, Rejected, Report, Warning, WarningCode, batch, rule};
+use super::{Drop, Impact, Irregular, Rejected, Report, Warning, WarningCode, rule};
 use details::{basis, ways};
-pub(crate) use heading::{heard, restitution};
+pub(crate) use heading::{answer, heard, mean_of, restitution};
 pub(crate) use models::model_name;
 use models::models;
 pub(crate) use words::range;
@@ -85,14 +86,14 @@ fn several(out: &mut String, report: &Report, drops: &[Drop], detail: Detail) {
             line(out, &wrapped(&format!("       {said}"), 9));
         }
     }
-    let together = batch::together_of(drops);
+    let together = together_of(drops);
     if !together.is_empty() {
         out.push('\n');
         out.push_str(&together);
     }
     if detail == Detail::Everything {
         for (i, drop) in drops.iter().enumerate() {
-            line(out, &format!("\nDrop {}: {}", i + 1, heading::answer(drop)));
+            line(out, &format!("\nDrop {}: {}", i + 1, answer(drop)));
             one(out, report, (i, drop), detail);
         }
     }

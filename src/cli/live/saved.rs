@@ -1,0 +1,84 @@
+//! The sound of each drop, kept.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::super::output;
+use crate::Error;
+use crate::analysis::{Live, Told};
+use crate::audio::{Form, write_wav};
+use crate::report::Impact;
+use crate::report::labels::{self, to_labels};
+use crate::units::whole;
+
+/// Sound before the first impact and after the last that is kept, in seconds.
+const AROUND_S: f64 = 0.5;
+/// What a WAV begins with.
+const WAV: &[u8] = b"RIFF";
+
+/// A folder that drops are kept in.
+pub(super) struct Saved {
+    folder: PathBuf,
+    /// The number of the last file that was there before.
+    before: usize,
+}
+
+impl Saved {
+    /// Makes the folder; drops that are there stay.
+    ///
+    /// # Errors
+    /// [`Error::InFile`] naming the folder if it cannot be made or read.
+    pub(super) fn into(folder: &Path) -> Result<Self, Error> {
+        let numbers = || -> Result<usize, Error> {
+            fs::create_dir_all(folder)?;
+            let mut last = 0;
+            for entry in fs::read_dir(folder)? {
+                let name = entry?.file_name();
+                let number = name.to_str().and_then(number);
+                last = last.max(number.unwrap_or(0));
+            }
+            Ok(last)
+        };
+        Ok(Self {
+            before: numbers().map_err(|e| e.in_file(folder))?,
+            folder: folder.to_path_buf(),
+        })
+    }
+
+    /// Writes the sound of a drop and its labels; one that is told again in place of what was kept of it.
+    ///
+    /// # Errors
+    /// [`Error::InFile`] naming the file that could not be written.
+    pub(super) fn keep(&mut self, told: &Told, live: &Live, rate_hz: f64) -> Result<(), Error> {
+        let impacts = &told.drop.impacts;
+        let (Some(first), Some(last)) = (impacts.first(), impacts.last()) else {
+            return Ok(());
+        };
+        let (from_s, held) = live.since(first.time_s - AROUND_S);
+        let length = whole(((last.time_s + AROUND_S - from_s) * rate_hz).ceil());
+        let held: Vec<&[f32]> = held.iter().map(|h| &h[..length.min(h.len())]).collect();
+        let stem = self
+            .folder
+            .join(format!("drop-{:03}", self.before + told.number));
+        let wav = stem.with_extension("wav");
+        let rate = u32::try_from(whole(rate_hz)).unwrap_or(u32::MAX);
+        let write = |file: &mut fs::File| write_wav(file, rate, &held, Form::Float32);
+        output::Whole::fill(&wav, WAV, write)?.put()?;
+        let shifted = impacts.iter().cloned().map(|impact| Impact {
+            time_s: impact.time_s - from_s,
+            ..impact
+        });
+        let shifted: Vec<Impact> = shifted.collect();
+        let text = to_labels(
+            &[&shifted],
+            last.time_s + AROUND_S - from_s,
+            labels::Form::Audacity,
+        );
+        output::write(&stem.with_extension("txt"), b"", text.as_bytes())
+    }
+}
+
+/// The number of a file `drop-001.wav`.
+fn number(name: &str) -> Option<usize> {
+    name.strip_prefix("drop-")?.split('.').next()?.parse().ok()
+}
