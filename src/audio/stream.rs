@@ -20,7 +20,7 @@ pub struct Stream<'s> {
 
 enum Form<'s> {
     Wav(wav::Stream<Box<dyn Read + Send + Sync + 's>>),
-    Compressed(compressed::Stream<'s>),
+    Compressed(Box<compressed::Stream<'s>>),
     Memory(memory::Stream<'s>),
 }
 
@@ -91,7 +91,9 @@ impl<'s> Stream<'s> {
         let form = match (content, source) {
             (Content::Wav, Source::Pipe(source)) => Form::Wav(wav::Stream::open(source)?),
             (Content::Refused(what), _) => return Err(unreadable(what.sentence())),
-            (content, source) => Form::Compressed(compressed::Stream::open(content, source)?),
+            (content, source) => {
+                Form::Compressed(Box::new(compressed::Stream::open(content, source)?))
+            }
         };
         Ok(Self { form })
     }

@@ -17,6 +17,7 @@ use crate::Error;
   bounce-audio compare cold warm --height 1m
   bounce-audio compare recordings --pattern '{group}-{n}.wav' --height 1m
   bounce-audio compare recordings --options balls.csv --report balls.html")]
+#[group(skip)]
 pub(super) struct Arguments {
     #[command(flatten)]
     batch: batch::Arguments,

@@ -161,3 +161,13 @@ impl Outcome {
         ExitCode::from(self.status)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_options_of_a_command_collide() {
+        Arguments::command().debug_assert();
+    }
+}
