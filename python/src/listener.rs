@@ -1,7 +1,7 @@
 //! Listening to a stream, block by block.
 
 use bounce_audio::report::{RecordingInfo, Report, json};
-use bounce_audio::{Drop, Error, Listener as Core};
+use bounce_audio::{Drop, Error, Listener as Core, Live, Told};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::{PyResult, Python, pyclass, pymethods};
 
@@ -15,6 +15,7 @@ use crate::samples::{Samples, repaired};
 #[derive(Debug)]
 pub(crate) struct Listener {
     core: Option<Core>,
+    live: Live,
     asked: Asked,
     sample_rate_hz: f64,
     channels: usize,
@@ -35,6 +36,8 @@ impl Listener {
         let core = Core::new(channels, sample_rate_hz, &asked.settings);
         Ok(Self {
             core: Some(core.map_err(crate::errors::raised)?),
+            live: Live::new(channels, sample_rate_hz, &asked.settings)
+                .map_err(crate::errors::raised)?,
             asked,
             sample_rate_hz,
             channels,
@@ -43,7 +46,7 @@ impl Listener {
         })
     }
 
-    /// Listens to rows of samples; gives the drops that are new, as a document.
+    /// Listens to rows of samples; gives the drops that are over, as a document.
     fn push(&mut self, py: Python<'_>, samples: PyReadonlyArray2<'_, f32>) -> PyResult<String> {
         let (rows, length) = (samples.shape()[0], samples.shape()[1]);
         let all = samples.as_slice().map_err(|_| not_contiguous())?;
@@ -56,9 +59,13 @@ impl Listener {
             core.push(&samples.channels)?;
             self.frames += length as u64;
             self.not_finite += samples.not_finite;
-            let drops: Vec<Drop> = core.new_drops()?;
-            Ok(serde_json::to_string(&drops)?)
+            Ok(drops_of(self.live.hear(&samples.channels)?)?)
         })
+    }
+
+    /// The drops that are over because the sound ends here, as a document.
+    fn rest(&mut self, py: Python<'_>) -> PyResult<String> {
+        detached(py, || Ok(drops_of(self.live.finish()?)?))
     }
 
     /// The document of the whole recording.
@@ -76,6 +83,12 @@ impl Listener {
             Ok(json::to_line(&report)?)
         })
     }
+}
+
+/// The document of the drops that were told.
+fn drops_of(told: Vec<Told>) -> serde_json::Result<String> {
+    let drops: Vec<Drop> = told.into_iter().map(|told| told.drop).collect();
+    serde_json::to_string(&drops)
 }
 
 fn finished() -> Error {

@@ -25,6 +25,7 @@ mod irregular;
 mod labels;
 mod licences;
 mod limits;
+mod listen;
 mod louder_before;
 mod paper_figures;
 mod physics_contact;

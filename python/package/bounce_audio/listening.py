@@ -181,20 +181,18 @@ class Listener:
         self._core = _core.Listener(rate, channels, as_json(settings), rule)
         self._channels = channels
         self._encoding = "32-bit float"
-        self._told: set[tuple[int, float]] = set()
         self.report = None
 
     def push(self, block: npt.ArrayLike) -> list[Drop]:
-        """Listens to the next samples, of shape (n,) or (channels, n); gives the drops that are over since.
+        """Listens to the next samples, of shape (n,) or (channels, n); gives the drops that are over.
 
-        A drop is over when nothing has risen for 3 s. Blocks may be of any length: what is found does not depend on it.
+        A drop is told within a second of its last impact, and again if more of it is heard later. What is told early may
+        differ by a little from the report of `finish`, which has heard what came after it.
 
         Raises `ArgumentError` for a wrong shape or type, or after `finish`.
         """
         rows, self._encoding = _arrays.rows(block, self._channels)
-        drops = [build(Drop, d) for d in json.loads(self._core.push(rows))]
-        self._told.update(map(_mark, drops))
-        return drops
+        return _drops(self._core.push(rows))
 
     def finish(self, name: str = "stream") -> Report:
         """Ends the stream; gives the report of all of it, with the drops told before.
@@ -208,19 +206,15 @@ class Listener:
     def drops(
         self, blocks: Iterable[npt.ArrayLike], name: str = "stream"
     ) -> Iterator[Drop]:
-        """Listens to all blocks and gives each drop once, as soon as it is over; then `report` has all that was found.
-
-        Two or three impacts alone are told at the end: they count as a drop where there is no other.
-        """
+        """Listens to all blocks and gives each drop as `push` does; then `report` has all that was found."""
         for block in blocks:
             yield from self.push(block)
-        told = frozenset(self._told)
-        rest = self.finish(name).drops
-        yield from (drop for drop in rest if _mark(drop) not in told)
+        yield from _drops(self._core.rest())
+        self.finish(name)
 
 
-def _mark(drop: Drop) -> tuple[int, float]:
-    return drop.channel, float(drop.impacts["time_s"][0])
+def _drops(document: str) -> list[Drop]:
+    return [build(Drop, d) for d in json.loads(document)]
 
 
 def _report(document: str, pictures: _core.Pictures | None = None) -> Report:

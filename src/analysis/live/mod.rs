@@ -9,6 +9,7 @@ mod known;
 use serde::Serialize;
 
 use super::drop::Extent;
+use super::few::Heard;
 use super::listener::unlike;
 use super::scene::{Bounds, Chained};
 use super::{Listener, Settings};
@@ -260,7 +261,7 @@ impl Live {
         let seen: Vec<Times> = chains.iter().map(Times::of_chain).collect();
         let reported_s = known::reported_s(&self.known, &seen);
         let result = chained.measured(&reported_s, &self.detector, &self.settings)?;
-        let few = result.few.filter(|few| few.is_enough());
+        let few = result.few.filter(Heard::is_enough);
         let measured = result.drops.into_iter().chain(few.map(|few| few.measured));
         let drops = measured.map(|m| m.within(extent, &self.settings));
         let is_over = |drop: &Drop| ends || is_over(&Times::of_drop(drop), extent.end_s);

@@ -64,9 +64,9 @@ impl Saved {
         let rate = u32::try_from(whole(rate_hz)).unwrap_or(u32::MAX);
         let write = |file: &mut fs::File| write_wav(file, rate, &held, Form::Float32);
         output::Whole::fill(&wav, WAV, write)?.put()?;
-        let shifted = impacts.iter().cloned().map(|impact| Impact {
+        let shifted = impacts.iter().map(|impact| Impact {
             time_s: impact.time_s - from_s,
-            ..impact
+            ..impact.clone()
         });
         let shifted: Vec<Impact> = shifted.collect();
         let text = to_labels(

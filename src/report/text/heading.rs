@@ -3,7 +3,6 @@
 use crate::fit::Estimate;
 use crate::report::numbers::{counted, seconds, short, with_error};
 use crate::report::{Drop, Report};
-use crate::units::real;
 
 /// What stands first: of one drop its e.
 pub(super) fn heading(report: &Report) -> String {
@@ -52,7 +51,7 @@ pub(crate) fn restitution(drop: &Drop) -> String {
 pub(crate) fn mean_of(drops: &[Drop]) -> Option<String> {
     let each = drops.iter().filter_map(|d| d.restitution.as_ref());
     let each: Vec<Estimate> = each.map(|e| e.estimate).collect();
-    let count = real(each.len());
+    let count: f64 = each.iter().map(|_| 1.0).sum();
     let mean = each.iter().map(|e| e.value).sum::<f64>() / count;
     let square: f64 = each.iter().map(|e| (e.value - mean).powi(2)).sum();
     let claimed: f64 = each.iter().filter_map(|e| e.std_error).map(|s| s * s).sum();

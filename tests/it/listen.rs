@@ -1,0 +1,156 @@
+//! `bounce-audio listen`: from a stream to lines, files and statuses.
+
+use std::fs;
+use std::io::Write;
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use bounce_audio::synth::presets::preset;
+use bounce_audio::synth::render;
+
+use crate::common::empty_folder;
+
+/// Bare samples of 16 bits: a drop of a ping-pong ball, twice, and its rate.
+fn twice() -> (Vec<u8>, u32, f64) {
+    let made = render(&preset("pingpong").unwrap(), 1).unwrap();
+    let e = made.truth.drops[0].restitution;
+    let both = made.samples.iter().chain(&made.samples);
+    let bytes = both.flat_map(|x| {
+        #[expect(clippy::cast_possible_truncation, reason = "full scale is 1")]
+        let step = (x * 32_767.0) as i16;
+        step.to_le_bytes()
+    });
+    (bytes.collect(), made.truth.sample_rate_hz, e)
+}
+
+/// What is written, said and the status, of bytes on standard input.
+fn listen(words: &[&str], input: &[u8]) -> (String, String, i32) {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
+        .arg("listen")
+        .args(words)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    // One that ends early leaves its input.
+    child.stdin.take().unwrap().write_all(input).ok();
+    let done = child.wait_with_output().unwrap();
+    let text = |bytes| String::from_utf8(bytes).unwrap();
+    (
+        text(done.stdout),
+        text(done.stderr),
+        done.status.code().unwrap(),
+    )
+}
+
+#[test]
+fn each_drop_has_a_line_and_a_file_that_gives_it_again() {
+    let folder = empty_folder("listen", "saved");
+    let kept = folder.join("drops");
+    let (bytes, rate, e) = twice();
+    let rate = rate.to_string();
+    let words = ["-", "--raw", "s16le", "--rate", &rate, "--save"];
+    let (out, err, status) = listen(&[&words[..], &[kept.to_str().unwrap()]].concat(), &bytes);
+    assert_eq!((err.as_str(), status), ("", 0));
+    let lines: Vec<&str> = out.lines().collect();
+    assert!(lines[0].starts_with("  1  e = 0.9"), "{out}");
+    assert!(
+        lines[1].starts_with("  2  e = 0.9") && lines[1].ends_with(" of 2 drops"),
+        "{out}"
+    );
+    assert!(out.contains("\n  mean e   0.9"), "{out}");
+    for number in ["001", "002"] {
+        let stem = kept.join(format!("drop-{number}"));
+        let read = bounce_audio::audio::read_file(&stem.with_extension("wav")).unwrap();
+        let settings = bounce_audio::Settings::default();
+        let found =
+            bounce_audio::analyze(&read.channels[0], f64::from(read.sample_rate_hz), &settings);
+        let drop = &found.unwrap().drops[0];
+        let estimate = drop.restitution.as_ref().unwrap().estimate;
+        let off = (estimate.value - e).abs();
+        assert!(off < 3.0 * estimate.std_error.unwrap(), "{number}: {off}");
+        let labels = fs::read_to_string(stem.with_extension("txt")).unwrap();
+        let first_s: f64 = labels.split('\t').next().unwrap().parse().unwrap();
+        assert!(
+            (first_s - drop.impacts[0].time_s).abs() < 1e-4,
+            "{number}: {first_s}"
+        );
+    }
+    // What is there stays: a second time goes on counting.
+    listen(&[&words[..], &[kept.to_str().unwrap()]].concat(), &bytes);
+    let mut names: Vec<_> = fs::read_dir(&kept)
+        .unwrap()
+        .map(|e| e.unwrap().file_name())
+        .collect();
+    names.sort();
+    assert_eq!(names.len(), 8, "{names:?}");
+    assert_eq!(names[7], "drop-004.wav");
+}
+
+#[test]
+fn a_line_of_json_for_each_drop_says_its_number() {
+    let (bytes, rate, e) = twice();
+    let rate = rate.to_string();
+    let words = ["-", "--raw", "s16le", "--rate", &rate, "--format", "ndjson"];
+    let (out, _, status) = listen(&words, &bytes);
+    let lines: Vec<Value> = out
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let numbers: Vec<u64> = lines
+        .iter()
+        .map(|l| l["number"].as_u64().unwrap())
+        .collect();
+    assert_eq!((numbers.as_slice(), status), (&[1, 2][..], 0));
+    for line in &lines {
+        let value = line["drop"]["restitution"]["value"].as_f64().unwrap();
+        assert!((value - e).abs() < 5e-3, "{value}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_command_is_listened_to_and_its_failure_is_told() {
+    let folder = empty_folder("listen", "command");
+    let (bytes, rate, _) = twice();
+    fs::write(folder.join("sound"), &bytes).unwrap();
+    let rate = rate.to_string();
+    let play = format!("cat '{}'", folder.join("sound").display());
+    let of = |command: &str| listen(&["--from", command, "--raw", "s16le", "--rate", &rate], b"");
+    let (out, err, status) = of(&play);
+    assert_eq!(
+        (out.lines().count() > 2, err.as_str(), status),
+        (true, "", 0)
+    );
+    // The drops that were heard before are told.
+    let (out, err, status) = of(&format!("{play}; exit 3"));
+    assert!(
+        out.contains("  2  e = 0.9") && err.contains("exit status: 3"),
+        "{out}{err}"
+    );
+    assert_eq!(status, 2);
+}
+
+#[test]
+fn what_holds_no_drop_or_no_sound_is_said() {
+    let (out, err, status) = listen(&["-", "--raw", "s16le"], &[0; 200_000]);
+    assert_eq!((out.as_str(), status), ("", 1));
+    assert!(err.contains("no drop was heard"), "{err}");
+    let (_, err, status) = listen(&["-"], b"");
+    assert!(
+        err.contains("standard input") && err.contains("empty"),
+        "{err}"
+    );
+    assert_eq!(status, 2);
+    for words in [
+        &["-", "--rate", "48000"][..],
+        &["drop.wav"],
+        &["-", "--raw", "s16le", "--channels", "0"],
+        &["-", "--raw", "s16le", "--rate", "0"],
+    ] {
+        let (_, err, status) = listen(words, b"");
+        assert_eq!(status, 2, "{words:?}: {err}");
+    }
+}
