@@ -1,6 +1,6 @@
 //! The microphone: drops told while they are played.
 
-use bounce_audio::Settings;
+use bounce_audio::{Hears, Settings};
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
@@ -22,7 +22,7 @@ impl Live {
     #[wasm_bindgen(constructor)]
     pub fn new(sample_rate_hz: f64, settings: &str) -> Result<Self, JsError> {
         let settings: Settings = serde_json::from_str(settings)?;
-        let inner = bounce_audio::Live::new(sample_rate_hz, &settings).map_err(told)?;
+        let inner = bounce_audio::Live::new(1, sample_rate_hz, &settings).map_err(told)?;
         Ok(Self { inner })
     }
 
@@ -31,13 +31,13 @@ impl Live {
     /// # Errors
     /// If the rate is too low to listen at.
     pub fn hear(&mut self, samples: &[f32]) -> Result<String, JsError> {
-        let drops = self.inner.hear(samples).map_err(told)?;
+        let drops = self.inner.hear(&[samples]).map_err(told)?;
         Ok(serde_json::to_string(&drops)?)
     }
 
     /// Whether a drop may be going on.
     #[must_use]
     pub fn hears_something(&self) -> bool {
-        self.inner.hears_something()
+        self.inner.hears() != Hears::Nothing
     }
 }
