@@ -26,39 +26,35 @@ mod terminal;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
+use std::sync::LazyLock;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::Error;
 
-/// What `--version` says of the feature for this package's own tests.
-#[cfg(feature = "internals")]
-macro_rules! internals {
-    () => {
-        ", internals"
-    };
-}
-#[cfg(not(feature = "internals"))]
-macro_rules! internals {
-    () => {
-        ""
-    };
-}
-
-/// What `--version` says; `-V` says its first line.
-const LONG_VERSION: &str = concat!(
-    env!("CARGO_PKG_VERSION"),
-    "\nreads     WAV, FLAC, ALAC, AAC, MP3, Ogg Vorbis, AIFF, CAF",
-    "\nfeatures  audio, plots, lab, cli",
-    internals!(),
-);
+/// What `--version` says; `-V` says its first line. The commit is known where the program was built for an archive.
+static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
+    let commit = option_env!("BOUNCE_AUDIO_COMMIT").map(|commit| format!("\ncommit    {commit}"));
+    format!(
+        "{}{}\n{}\n{}{}",
+        env!("CARGO_PKG_VERSION"),
+        commit.unwrap_or_default(),
+        "reads     WAV, FLAC, ALAC, AAC, MP3, Ogg Vorbis, AIFF, CAF",
+        "features  audio, plots, lab, cli",
+        if cfg!(feature = "internals") {
+            ", internals"
+        } else {
+            ""
+        },
+    )
+});
 
 /// Listens to a ball bouncing: impact times, coefficient of restitution, and how sure that is.
 #[derive(Debug, Parser)]
 #[command(
     name = "bounce-audio",
     version,
-    long_version = LONG_VERSION,
+    long_version = LONG_VERSION.as_str(),
     about,
     after_help = "Examples:
   bounce-audio analyze drop.wav                   what a recording says of the ball

@@ -347,6 +347,20 @@ fn a_change_of_format_ends_it_with_a_warning() {
 }
 
 #[test]
+fn streams_of_an_ogg_that_follow_each_other_are_one_recording() {
+    let one = bytes("drop.ogg");
+    let alone = read(&one).unwrap();
+    let both = read(&[one.clone(), one.clone()].concat()).unwrap();
+    assert!(both.warnings.is_empty(), "{:?}", both.warnings);
+    let (alone, both) = (&alone.channels[0], &both.channels[0]);
+    assert_eq!(both.len(), 2 * alone.len());
+    let differs = (alone.iter().chain(alone))
+        .zip(both)
+        .position(|(a, b)| a != b);
+    assert_eq!(differs, None);
+}
+
+#[test]
 fn what_is_not_read_says_what_converts_it() {
     for (name, what, command) in [
         ("refused-opus.ogg", "Opus", "ffmpeg -i IN.opus OUT.wav"),

@@ -52,6 +52,8 @@ enum Next {
     Lost,
     /// What came since the last mark ends at so many frames from some origin.
     Mark(u64),
+    /// Another stream follows, with a decoder of its own.
+    Anew(Box<Decoder>),
     /// The end.
     End,
     /// The end, too early.

@@ -67,11 +67,8 @@ pub(super) fn vorbis(source: Source<'_>) -> Result<Opened<'_>, Error> {
         ready: VecDeque::new(),
         ended: false,
     };
-    let mut params = AudioCodecParameters::new();
-    params
-        .for_codec(CODEC_ID_VORBIS)
-        .with_extra_data(pages.headers()?.into());
-    let decoder = Decoder::new(&params, "ogg")?;
+    let first = pages.page()?.ok_or_else(broken)?;
+    let decoder = pages.begin(first)?;
     Ok(Opened {
         packets: Box::new(pages),
         decoder,
@@ -82,22 +79,33 @@ pub(super) fn vorbis(source: Source<'_>) -> Result<Opened<'_>, Error> {
 }
 
 impl Pages<'_> {
-    /// The first and the third packet, which the decoder needs; the second is a comment.
-    fn headers(&mut self) -> Result<Vec<u8>, Error> {
-        let broken = || unreadable("the header of its Vorbis is damaged");
-        let first = self.page()?.ok_or_else(broken)?;
+    /// Goes to the sound of a stream that begins with this page. Its decoder needs the first and the third packet; the second
+    /// is a comment.
+    fn begin(&mut self, first: Page) -> Result<Decoder, Error> {
         self.serial = first.serial;
         self.due = first.number;
+        self.ended = false;
+        self.part.clear();
         self.unpack(first);
         let mut packets = Vec::new();
         while packets.len() < 3 {
-            match self.next()? {
-                Next::Packet { packet, .. } => packets.push(packet.data),
-                Next::Mark(_) => {}
-                _ => return Err(broken()),
+            match self.ready.pop_front() {
+                Some(Next::Packet { packet, .. }) => packets.push(packet.data),
+                Some(Next::Mark(_)) => {}
+                Some(_) => return Err(broken()),
+                None => match self.page()? {
+                    Some(page) if page.serial == self.serial && !page.begins => self.unpack(page),
+                    // Beside it, another stream is not listened to.
+                    Some(_) if !self.ended => {}
+                    _ => return Err(broken()),
+                },
             }
         }
-        Ok([&*packets[0], &*packets[2]].concat())
+        let mut params = AudioCodecParameters::new();
+        params
+            .for_codec(CODEC_ID_VORBIS)
+            .with_extra_data([&*packets[0], &*packets[2]].concat().into());
+        Decoder::new(&params, "ogg")
     }
 
     /// Has so many bytes to look at; fewer at the end.
@@ -163,6 +171,10 @@ impl Pages<'_> {
     }
 }
 
+fn broken() -> Error {
+    unreadable("the header of its Vorbis is damaged")
+}
+
 /// A page at the beginning of these bytes, and its length.
 fn read(bytes: &[u8]) -> Option<(Page, usize)> {
     let header: &[u8; HEADER_BYTES] = bytes.first_chunk()?;
@@ -202,9 +214,14 @@ impl Packets for Pages<'_> {
                 return Ok(next);
             }
             match self.page()? {
+                // Another stream after the end of this one goes on with it; beside it, it is not listened to.
+                Some(page) if page.begins && self.ended => {
+                    return Ok(match self.begin(page) {
+                        Ok(decoder) => Next::Anew(Box::new(decoder)),
+                        Err(_) => Next::Changed,
+                    });
+                }
                 Some(page) if page.serial == self.serial => self.unpack(page),
-                // Another stream after the end of this one; beside it, it is not listened to.
-                Some(page) if page.begins && self.ended => return Ok(Next::Changed),
                 Some(_) => {}
                 None if self.ended => return Ok(Next::End),
                 None => return Ok(Next::Cut),

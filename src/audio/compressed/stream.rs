@@ -186,6 +186,10 @@ impl<'s> Stream<'s> {
             }
             Next::Lost => self.decoder.inner.reset(),
             Next::Mark(end) => self.place(end),
+            Next::Anew(decoder) => {
+                self.decoder = *decoder;
+                self.mark = None;
+            }
             end => self.end = Some(end),
         }
         Ok(())
