@@ -62,12 +62,16 @@ impl Decoder {
             other => {
                 let name = unread(other);
                 if name.is_some() || !is_pcm(other) {
-                    let name = name.unwrap_or("neither AAC, ALAC, MP3, FLAC nor PCM (AMR perhaps)");
+                    let name = name
+                        .unwrap_or("neither AAC, ALAC, MP3, FLAC, Vorbis nor PCM (AMR perhaps)");
                     return Err(unreadable(Refused::new(name, ending).sentence()));
                 }
                 let is_lossy = matches!(other, CODEC_ID_PCM_ALAW | CODEC_ID_PCM_MULAW);
+                // A header may claim 4 billion frames a packet; without the claim the decoder grows by what comes.
+                let mut params = params.clone();
+                params.max_frames_per_packet = None;
                 (
-                    PcmDecoder::try_new(params, &options).map(boxed),
+                    PcmDecoder::try_new(&params, &options).map(boxed),
                     "PCM",
                     is_lossy,
                 )

@@ -58,6 +58,8 @@ pub(in crate::audio) struct Stream<'s> {
     units_per_s: Option<u32>,
     /// Frames that are missing behind the last packet, which lasts longer than its sound.
     gap: u64,
+    /// Frames by which the sound of all packets so far lasts less than they do.
+    behind: i64,
 }
 
 impl fmt::Debug for Stream<'_> {
@@ -103,13 +105,14 @@ impl<'s> Stream<'s> {
             note,
             units_per_s,
             gap: 0,
+            behind: 0,
         };
         while stream.channels == 0 || stream.hidden > 0 {
             if stream.end.is_some() {
                 return Err(unreadable(if stream.channels == 0 {
                     "none of its sound could be decoded"
                 } else {
-                    "it ends before the place where its edit list begins"
+                    "it ends before the place where its sound begins"
                 }));
             }
             stream.step()?;
@@ -226,7 +229,14 @@ impl<'s> Stream<'s> {
         }
         self.usual = frames as u64;
         if self.units_per_s == Some(rate) {
-            self.gap = packet.dur.get().saturating_sub(self.usual);
+            // Time stamps that jitter are no gap: what counts is how far the sound has fallen behind them.
+            let dur = i64::try_from(packet.dur.get()).unwrap_or(i64::MAX);
+            let usual = self.usual.cast_signed();
+            let behind = self.behind.saturating_add(dur.saturating_sub(usual));
+            self.behind = behind.max(-usual);
+            if self.behind > usual / 2 {
+                self.gap = std::mem::take(&mut self.behind).unsigned_abs();
+            }
         }
         let shown = self.shown(self.usual);
         let hidden = usize::try_from(self.usual - shown).unwrap_or(frames);

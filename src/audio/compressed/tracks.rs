@@ -93,7 +93,7 @@ fn sounding(reader: &mut dyn FormatReader, tracks: &mut [(u32, Decoder)]) -> usi
         };
         probed[k] += 1;
         sounds[k] = sounds[k] || has_sound(&mut tracks[k].1, &packet);
-        let enough = probed.iter().all(|n| *n >= PROBED) && sounds.contains(&true);
+        let enough = probed.iter().any(|n| *n >= PROBED) && sounds.contains(&true);
         if sounds[0] || enough {
             break;
         }

@@ -54,7 +54,7 @@ pub(super) struct Arguments {
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
     /// Keep the sound of each drop as WAV in this folder, with its impacts as labels
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "time_scale")]
     save: Option<PathBuf>,
 }
 
@@ -104,6 +104,12 @@ fn stopped_by_ctrl_c() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     let set = Arc::clone(&stop);
     // Where no handler can be set Ctrl-C ends the program as it does everywhere.
-    ctrlc::set_handler(move || set.store(true, Ordering::Relaxed)).ok();
+    ctrlc::set_handler(move || {
+        // The first ends with what was heard; a second one at once, as where nothing comes any more.
+        if set.swap(true, Ordering::Relaxed) {
+            std::process::exit(130);
+        }
+    })
+    .ok();
     stop
 }

@@ -124,7 +124,9 @@ impl Samples {
                 child: Some((child, name)),
             }),
             Err(e) => {
-                ended(&mut child, &name, false)?;
+                // One that failed by itself has said why.
+                child.kill().ok();
+                child.wait()?;
                 Err(e.in_file(name))
             }
         }

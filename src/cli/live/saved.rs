@@ -57,9 +57,10 @@ impl Saved {
         let (from_s, held) = live.since(first.time_s - AROUND_S);
         let length = whole(((last.time_s + AROUND_S - from_s) * rate_hz).ceil());
         let held: Vec<&[f32]> = held.iter().map(|h| &h[..length.min(h.len())]).collect();
-        let stem = self
-            .folder
-            .join(format!("drop-{:03}", self.before + told.number));
+        let stem = self.folder.join(format!(
+            "drop-{:03}",
+            self.before.saturating_add(told.number)
+        ));
         let wav = stem.with_extension("wav");
         let rate = u32::try_from(whole(rate_hz)).unwrap_or(u32::MAX);
         let write = |file: &mut fs::File| write_wav(file, rate, &held, Form::Float32);

@@ -93,6 +93,10 @@ impl Curve {
             return None;
         }
         let (low, high) = shared(&by_drop);
+        // Of three or four drops from unlike heights no speed may be common to three.
+        if low > high {
+            return None;
+        }
         let scale = Scale {
             middle: 0.5 * (low + high),
             reach: (0.5 * (high - low)).max(1e-3),
