@@ -10,9 +10,9 @@ const MOST_S = 600;
 const FALL_DB = 2;
 const FULL = 0.999;
 
-function lineOf({ restitution, bounces, first_s: first, last_s: last }) {
+function lineOf({ restitution, bounces, observed_time_s: observed }) {
   const e = restitution ? `e = ${plusMinus(restitution.value, restitution.std_error)}` : "e not determined";
-  return `${e}, ${counted(bounces, "bounce")} in ${fixed(last - first, 1)} s`;
+  return `${e}, ${counted(bounces, "bounce")} in ${fixed(observed, 1)} s`;
 }
 
 function joined(blocks) {
@@ -99,7 +99,7 @@ export class LivePanel {
         this.#handed = this.#blocks.length;
         const { told, hears } = await this.#engine.ask("hear", { samples });
         element("live-state").textContent = hears ? "Hearing something…" : "Listening…";
-        for (const drop of told) this.#tell(drop);
+        for (const one of told) this.#tell(one);
       }
     } catch {
       // The recording is kept here whatever happens to the worker; it is measured in the end.
@@ -118,10 +118,10 @@ export class LivePanel {
     element("live-time").textContent = `${fixed(this.#seconds, 0)} s`;
   }
 
-  #tell(drop) {
-    const line = this.#lines.get(drop.number) ?? made("li");
+  #tell({ number, drop }) {
+    const line = this.#lines.get(number) ?? made("li");
     line.textContent = lineOf(drop);
-    this.#lines.set(drop.number, line);
+    this.#lines.set(number, line);
     element("live-drops").append(line);
   }
 
