@@ -84,3 +84,15 @@ fn two_drops_make_no_curve() {
     let two: Vec<Point> = points.into_iter().filter(|p| p.drop < 2).collect();
     assert!(Curve::of(&two).is_none() && Curve::of(&[]).is_none());
 }
+
+#[test]
+fn three_drops_without_a_common_speed_make_no_curve() {
+    // Of each drop only the first bounces: 5 cm, 27 cm and 150 cm.
+    let mut points = bounces(&mut SplitMix64::new(1), 3, 0.0);
+    let mut seen = [0; 3];
+    points.retain(|point| {
+        seen[point.drop] += 1;
+        seen[point.drop] <= 2
+    });
+    assert!(Curve::of(&points).is_none());
+}
