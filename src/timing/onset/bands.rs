@@ -53,6 +53,8 @@ pub(super) struct Windows {
 pub(super) struct Band {
     /// Variance of the noise.
     pub noise: f64,
+    /// κ, the share of independent values among its samples: a band of width B holds 2·B of them a second (Nyquist).
+    pub kappa: f64,
     pub sums: Vec<Vec<f64>>,
 }
 
@@ -96,6 +98,7 @@ impl Windows {
         let mut impulse = vec![0.0; settle];
         impulse[0] = 1.0;
         Band {
+            kappa: 2.0 * (edges.1.unwrap_or(0.5) - edges.0),
             noise: filtered(&impulse, edges).iter().map(|h| h * h).sum(),
             sums: sums.collect(),
         }

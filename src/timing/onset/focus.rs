@@ -7,7 +7,7 @@ use std::ops::Range;
 /// Places and trials of less than this share are not looked at until nothing moves.
 const LEAST: f64 = 1e-6;
 /// Places on either side of the likely ones that are looked at too: nothing moves further in a round (convention).
-const MARGIN: usize = 3;
+pub(super) const MARGIN: usize = 3;
 
 /// The places of each impact, and of widths of disagreement and shares of silent bands those that are tried.
 #[derive(Debug)]

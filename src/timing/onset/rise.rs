@@ -2,7 +2,7 @@
 
 use super::bands::{AFTER_S, Band, FOOT_S, Window, Windows};
 use super::focus::Focus;
-use super::fusion::Posterior;
+use super::lesson::Lesson;
 use crate::signal::logarithm::ln_from_one;
 use crate::units::{real, samples_in};
 
@@ -12,13 +12,10 @@ const SEGMENTS: usize = 11;
 const ENDS_S: [f64; SEGMENTS] = [
     -0.15e-3, 0.0, 0.06e-3, 0.12e-3, 0.2e-3, 0.3e-3, 0.45e-3, 0.7e-3, 1.1e-3, 1.7e-3, AFTER_S,
 ];
-/// Those that lie before the onset, and those whose scatter tells how many samples err together: a millisecond.
+/// Those that lie before the onset.
 const BEFORE: usize = 2;
-const EARLY: usize = 9;
-/// Decay of the rise before any is seen, in seconds, and κ then, and its bounds.
+/// Decay of the rise before any is seen, in seconds.
 const DECAY_S: f64 = 0.6e-3;
-const KAPPA: f64 = 0.2;
-const KAPPAS: (f64, f64) = (0.02, 1.0);
 /// Samples of the band's own noise that are added to each level: a level is never 0.
 const NOISE_SAMPLES: f64 = 4.0;
 /// Steps of scoring by which the size of a rise is found, each within these factors.
@@ -26,16 +23,8 @@ const SIZE_STEPS: usize = 3;
 const SIZE_FACTORS: (f64, f64) = (0.3, 3.0);
 /// Least size of a rise as a share of the level.
 const LEAST_SIZE: f64 = 0.05;
-/// Places below this share of an impact's posterior teach nothing.
-const LEAST_SHARE: f64 = 0.01;
-/// A level of this share of a size halves what an impact teaches.
-const CLEAR: f64 = 0.3;
-/// An onset that is known this well counts half, in seconds.
-const CERTAIN_S: f64 = 0.1e-3;
 /// Least rise before the onset and after it, of 1 at its greatest.
 const LEAST_RISE: (f64, f64) = (1e-5, 1e-4);
-/// Greatest energy of a segment over its variance that counts: more is another sound.
-const MOST: f64 = 6.0;
 
 /// The rise g in one band.
 #[derive(Debug)]
@@ -43,15 +32,13 @@ pub(super) struct Rise {
     /// Ends of the segments in samples after the foot.
     ends: [usize; SEGMENTS],
     values: [f64; SEGMENTS],
-    kappa: f64,
     foot: usize,
-    /// [`CERTAIN_S`] in samples.
-    certain: f64,
 }
 
 /// What a band says of all impacts.
 #[derive(Debug)]
 pub(super) struct Likelihoods {
+    /// κ of the band.
     pub kappa: f64,
     pub of: Vec<Likelihood>,
 }
@@ -60,14 +47,14 @@ pub(super) struct Likelihoods {
 #[derive(Debug)]
 pub(super) struct Likelihood {
     pub ln: Vec<f64>,
-    fits: Vec<Fit>,
+    pub fits: Vec<Fit>,
 }
 
 /// Size of a rise and the level before it, as variances.
 #[derive(Debug, Clone, Copy)]
-struct Fit {
-    size: f64,
-    level: f64,
+pub(super) struct Fit {
+    pub size: f64,
+    pub level: f64,
 }
 
 /// Number and energy of the samples of each segment.
@@ -111,13 +98,7 @@ impl Rise {
                 (-middle / DECAY_S).exp()
             }
         });
-        Self {
-            ends,
-            values,
-            kappa: KAPPA,
-            foot,
-            certain: CERTAIN_S * rate,
-        }
+        Self { ends, values, foot }
     }
 
     /// The likelihoods of all impacts.
@@ -132,7 +113,7 @@ impl Rise {
             Likelihood { ln, fits }
         });
         Likelihoods {
-            kappa: self.kappa,
+            kappa: band.kappa,
             of: of.collect(),
         }
     }
@@ -145,7 +126,6 @@ impl Rise {
         focus: &Focus,
         likelihoods: &mut Likelihoods,
     ) {
-        likelihoods.kappa = self.kappa;
         let each = windows.of.iter().zip(&band.sums).zip(&focus.places);
         for (((window, sums), places), known) in each.zip(&mut likelihoods.of) {
             for place in places.clone() {
@@ -223,96 +203,31 @@ impl Rise {
         (size + gradient / information).clamp(least, most)
     }
 
-    /// Learns the rise and κ from all impacts, each over its likely places (expectation and maximisation).
-    ///
-    /// # Formula
-    /// `κ = 2/(m·var)`, the variance of means of m values of x²/V, over that of independent ones.
-    pub(super) fn learn(
-        &mut self,
-        band: &Band,
-        likelihoods: &Likelihoods,
-        windows: &Windows,
-        now: &[Posterior],
-    ) {
-        let mut lesson = Lesson::default();
-        for (((l, w), sums), posterior) in
-            (likelihoods.of.iter().zip(&windows.of).zip(&band.sums)).zip(now)
-        {
-            let sure = 1.0 / (1.0 + (posterior.std / self.certain).powi(2));
-            let likely = posterior.p.iter().enumerate();
-            for (place, &p) in likely.filter(|(_, p)| **p > LEAST_SHARE) {
-                let foot = w.onset(place, windows) - self.foot;
-                let segments = Segments::at(sums, foot, &self.ends);
-                lesson.add(&segments, l.fits[place], &self.values, (p, sure));
-            }
-        }
-        // Half of the way: more certain places make a steeper rise and the other way round.
-        if let Some(kappa) = lesson.kappa() {
-            self.kappa = (self.kappa * kappa.clamp(KAPPAS.0, KAPPAS.1)).sqrt();
-        }
-        let learnt = lesson.rise(&self.values);
-        for (value, learnt) in self.values.iter_mut().zip(learnt) {
-            *value = (*value * learnt).sqrt();
-        }
-    }
-}
-
-/// What impacts teach: sums over their likely places.
-#[derive(Default)]
-struct Lesson {
-    above: [f64; SEGMENTS],
-    weights: [f64; SEGMENTS],
-    /// Of the means of x²/V: count, sum, sum of squares and number of samples.
-    scatter: [f64; 4],
-}
-
-impl Lesson {
-    /// Adds a place, by its probability and how sure the onset is.
-    fn add(
-        &mut self,
-        segments: &Segments,
-        fit: Fit,
-        values: &[f64; SEGMENTS],
-        (p, sure): (f64, f64),
-    ) {
-        let weight = p * sure / (fit.level / fit.size + CLEAR);
-        for (k, value) in values.iter().enumerate() {
-            let (count, energy) = (segments.counts[k], segments.energies[k]);
-            self.above[k] += weight * (energy - fit.level * count) / fit.size;
-            self.weights[k] += weight * count;
-            if count > 0.0 && k < EARLY {
-                let mean = (energy / count / (fit.level + fit.size * value)).min(MOST);
-                let sums = [p, p * mean, p * mean * mean, p * count];
-                for (sum, x) in self.scatter.iter_mut().zip(sums) {
-                    *sum += x;
-                }
-            }
-        }
+    /// Samples from the foot to the end.
+    pub(super) fn length(&self) -> usize {
+        self.ends[SEGMENTS - 1]
     }
 
-    fn kappa(&self) -> Option<f64> {
-        let [count, sum, squares, samples] = self.scatter;
-        let variance = squares / count - (sum / count).powi(2);
-        (variance > 0.0).then(|| 2.0 * count / (samples * variance))
-    }
-
-    /// The rise, 1 at its greatest; as before where nothing was heard.
-    fn rise(&self, before: &[f64; SEGMENTS]) -> [f64; SEGMENTS] {
-        let mut values = *before;
-        for (k, value) in values.iter_mut().enumerate() {
-            if self.weights[k] > 0.0 {
-                *value = (self.above[k] / self.weights[k]).max(0.0);
+    /// Learns the rise from what all impacts teach, as it is from this many samples after its foot on: a share of the way.
+    pub(super) fn learn(&mut self, lesson: &Lesson, after: f64, share: f64) {
+        let mut learnt = self.values;
+        let mut from = after;
+        for (value, end) in learnt.iter_mut().zip(self.ends) {
+            let to = real(end) + after;
+            if let Some(mean) = lesson.mean(from, to) {
+                *value = mean.max(0.0);
             }
+            from = to;
         }
-        let greatest = values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        for (k, value) in values.iter_mut().enumerate() {
+        let greatest = learnt.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        for (k, (value, learnt)) in self.values.iter_mut().zip(learnt).enumerate() {
             let least = if k < BEFORE {
                 LEAST_RISE.0
             } else {
                 LEAST_RISE.1
             };
-            *value = (*value / greatest).max(least);
+            let learnt = (learnt / greatest).max(least);
+            *value = value.powf(1.0 - share) * learnt.powf(share);
         }
-        values
     }
 }
