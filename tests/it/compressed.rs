@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::LazyLock;
 
-use bounce_audio::audio::{self, Recording, Stream};
+use bounce_audio::audio::{self, Recording, Stream, Track};
 use bounce_audio::{Settings, analyze};
 use serde_json::Value;
 
@@ -103,26 +103,83 @@ fn every_format_gives_the_drop() {
     }
 }
 
+/// The tracks of `drop-second-track.m4a`, heard from the beginning.
+const TWO: &str = "1 (AAC, 32000 Hz, 1 channel, silent), 2 (AAC, 32000 Hz, 1 channel, has sound)";
+
 #[test]
 fn of_two_tracks_the_one_with_sound_is_read_and_that_is_said() {
     let (e, times) = drop_of(&ORIGINAL);
     let read = audio::read_file(&path("drop-second-track.m4a")).unwrap();
-    assert_eq!(
-        read.warnings,
-        ["it has 2 tracks of sound: number 2 was read"]
-    );
+    let said = format!("it has 2 tracks of sound, of which number 2 was read: {TWO}");
+    assert_eq!(read.tracks.as_deref(), Some(&*said));
+    assert!(read.warnings.is_empty(), "{:?}", read.warnings);
     let (e_here, times_here) = drop_of(&read);
     assert!((e_here - e).abs() < 1e-3, "e is {e_here}, not {e}");
     for (here, there) in times_here.iter().zip(&times).take(LOUD) {
         assert!((here - there).abs() < 16e-6, "{here} s, not {there} s");
     }
-    // A pipe cannot be read twice: its first track is.
+    // What is read ahead to hear which has sound is not read again: a pipe gives the same.
     let pipe = audio::read(bytes("drop-second-track.m4a").as_slice()).unwrap();
-    assert!(pipe.channels.iter().flatten().all(|x| *x == 0.0));
     assert_eq!(
-        pipe.warnings,
-        ["it has 2 tracks of sound: number 1 was read"]
+        (&pipe.channels, &pipe.tracks),
+        (&read.channels, &read.tracks)
     );
+}
+
+#[test]
+fn a_track_is_read_by_its_number_or_the_error_lists_those_that_there_are() {
+    let track = |name, number| {
+        let track = Track::Number(number);
+        Stream::open_file_track(&path(name), track)?.into_recording()
+    };
+    let chosen = audio::read_file(&path("drop-second-track.m4a")).unwrap();
+    let [first, second] = [1, 2].map(|n| track("drop-second-track.m4a", n).unwrap());
+    assert!(first.channels.iter().flatten().all(|x| *x == 0.0));
+    assert_eq!(second.channels, chosen.channels);
+    assert_eq!((first.tracks, second.tracks), (None, None));
+    let untold = TWO.replace(", silent", "").replace(", has sound", "");
+    for (name, number, expected) in [
+        (
+            "drop-second-track.m4a",
+            3,
+            format!("it has 2 tracks of sound, and no number 3: {untold}"),
+        ),
+        (
+            "drop.m4a",
+            2,
+            "it has one track of sound, and no number 2: 1 (AAC, 32000 Hz, 1 channel)".to_owned(),
+        ),
+        (
+            "drop.flac",
+            2,
+            "it has one track of sound, and no number 2".to_owned(),
+        ),
+    ] {
+        let error = track(name, number).unwrap_err().to_string();
+        assert!(error.ends_with(&expected), "{name}: {error}");
+        assert_eq!(track(name, 0).unwrap_err().to_string().len(), error.len());
+    }
+}
+
+#[test]
+fn the_command_says_which_option_chooses_a_track_and_draws_the_one_that_was_chosen() {
+    let name = "drop-second-track.m4a";
+    let folder = folder("tracks", &[(name, name)]);
+    let run = |more: &[&str]| piped(&folder, &[&["analyze", name], more].concat(), &[]);
+    let said = |output: &std::process::Output| {
+        let text = String::from_utf8_lossy(&output.stdout).into_owned();
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let output = run(&[]);
+    assert!(said(&output).contains(&format!("{TWO} (--track)")));
+    // Its sound is drawn too: what is silent would have no waveform.
+    let output = run(&["--track", "2", "--plot", "chosen.svg"]);
+    assert!(!said(&output).contains("tracks of sound"), "{output:?}");
+    run(&["--plot", "first.svg"]);
+    let drawn = |file| fs::read_to_string(folder.join(file)).unwrap();
+    assert_eq!(drawn("chosen.svg"), drawn("first.svg"));
+    let output = run(&["--track", "1"]);
+    assert!(said(&output).contains("recording is silent"), "{output:?}");
 }
 
 #[test]
@@ -234,6 +291,22 @@ fn a_gap_of_the_time_stamps_is_silence() {
         "{:?}",
         gap.warnings
     );
+}
+
+#[test]
+fn what_cannot_be_decoded_keeps_the_gap_behind_it() {
+    let all = bytes("drop-gap.m4a");
+    let frames = read(&all).unwrap().channels[0].len();
+    let sound = all.windows(4).position(|kind| kind == b"mdat").unwrap() + 4;
+    let mut torn = 0;
+    for at in (sound..all.len()).step_by(60) {
+        let mut bytes = all.clone();
+        bytes[at..all.len().min(at + 60)].fill(0xFF);
+        let read = read(&bytes).unwrap();
+        torn += usize::from(!read.warnings[0].contains("0.064 s"));
+        assert_eq!(read.channels[0].len(), frames, "{at}: {:?}", read.warnings);
+    }
+    assert!(torn > 30, "{torn} were damaged");
 }
 
 /// A source that gives a few bytes at a time, as a pipe may.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// What docs/limits.md calls it, a command just beyond it, and what is said.
-const LIMITS: [(&str, &str, &str); 26] = [
+const LIMITS: [(&str, &str, &str); 27] = [
     (
         "sample rate",
         "analyze 159.wav",
@@ -30,6 +30,11 @@ const LIMITS: [(&str, &str, &str); 26] = [
         "`--channel`",
         "analyze drop.wav --channel 2",
         "--channel is 2 of a recording with 1, expected best or the number of a channel, from 1",
+    ),
+    (
+        "`--track`",
+        "analyze drop.wav --track 2",
+        "it has one track of sound, and no number 2",
     ),
     (
         "`--start`, `--end`",
@@ -139,7 +144,7 @@ const LIMITS: [(&str, &str, &str); 26] = [
 ];
 
 /// Every option that takes a number, given one below zero.
-const NEGATIVE: [&str; 26] = [
+const NEGATIVE: [&str; 27] = [
     "analyze drop.wav --height -30cm",
     "analyze drop.wav --height-error -1mm",
     "analyze drop.wav --mass -2.5g",
@@ -149,6 +154,7 @@ const NEGATIVE: [&str; 26] = [
     "analyze drop.wav --start -1s",
     "analyze drop.wav --end -1min",
     "analyze drop.wav --channel -1",
+    "analyze drop.wav --track -1",
     "analyze drop.wav --impacts drop.txt --label-error -1ms",
     "batch drop.wav --jobs -2",
     "batch drop.wav --height -30cm",

@@ -33,50 +33,29 @@ impl Decoder {
     pub(super) fn new(params: &AudioCodecParameters, ending: &'static str) -> Result<Self, Error> {
         // The first packet of a Vorbis readies the next and gives nothing; what an encoder added is left out later (`stream`).
         let options = AudioDecoderOptions::default().gapless(true);
-        let (made, name, is_lossy) = match params.codec {
-            CODEC_ID_AAC => (
-                AacDecoder::try_new(params, &options).map(boxed),
-                "AAC",
-                true,
-            ),
-            CODEC_ID_ALAC => (
-                AlacDecoder::try_new(params, &options).map(boxed),
-                "ALAC",
-                false,
-            ),
-            CODEC_ID_FLAC => (
-                FlacDecoder::try_new(params, &options).map(boxed),
-                "FLAC",
-                false,
-            ),
-            CODEC_ID_MP3 => (
-                MpaDecoder::try_new(params, &options).map(boxed),
-                "MP3",
-                true,
-            ),
-            CODEC_ID_VORBIS => (
-                VorbisDecoder::try_new(params, &options).map(boxed),
-                "Vorbis",
-                true,
-            ),
-            other => {
-                let name = unread(other);
-                if name.is_some() || !is_pcm(other) {
-                    let name = name
-                        .unwrap_or("neither AAC, ALAC, MP3, FLAC, Vorbis nor PCM (AMR perhaps)");
-                    return Err(unreadable(Refused::new(name, ending).sentence()));
-                }
-                let is_lossy = matches!(other, CODEC_ID_PCM_ALAW | CODEC_ID_PCM_MULAW);
+        let name = name(params.codec);
+        let made = match params.codec {
+            CODEC_ID_AAC => AacDecoder::try_new(params, &options).map(boxed),
+            CODEC_ID_ALAC => AlacDecoder::try_new(params, &options).map(boxed),
+            CODEC_ID_FLAC => FlacDecoder::try_new(params, &options).map(boxed),
+            CODEC_ID_MP3 => MpaDecoder::try_new(params, &options).map(boxed),
+            CODEC_ID_VORBIS => VorbisDecoder::try_new(params, &options).map(boxed),
+            other if is_pcm(other) => {
                 // A header may claim 4 billion frames a packet; without the claim the decoder grows by what comes.
                 let mut params = params.clone();
                 params.max_frames_per_packet = None;
-                (
-                    PcmDecoder::try_new(&params, &options).map(boxed),
-                    "PCM",
-                    is_lossy,
-                )
+                PcmDecoder::try_new(&params, &options).map(boxed)
+            }
+            other => {
+                let what = "neither AAC, ALAC, MP3, FLAC, Vorbis nor PCM (AMR perhaps)";
+                let name = unread(other).unwrap_or(what);
+                return Err(unreadable(Refused::new(name, ending).sentence()));
             }
         };
+        let is_lossy = matches!(
+            params.codec,
+            CODEC_ID_AAC | CODEC_ID_MP3 | CODEC_ID_VORBIS | CODEC_ID_PCM_ALAW | CODEC_ID_PCM_MULAW
+        );
         let inner = made.map_err(|e| refused(&e, name, ending))?;
         let bits = match params.codec {
             // In the sixth byte of what it says of itself.
@@ -116,6 +95,19 @@ fn unread(codec: AudioCodecId) -> Option<&'static str> {
     }
 }
 
+/// What a codec is called, read or not.
+pub(super) fn name(codec: AudioCodecId) -> &'static str {
+    match codec {
+        CODEC_ID_AAC => "AAC",
+        CODEC_ID_ALAC => "ALAC",
+        CODEC_ID_FLAC => "FLAC",
+        CODEC_ID_MP3 => "MP3",
+        CODEC_ID_VORBIS => "Vorbis",
+        other if is_pcm(other) => "PCM",
+        other => unread(other).unwrap_or("of an unknown kind"),
+    }
+}
+
 /// Whether samples stand as they are.
 fn is_pcm(codec: AudioCodecId) -> bool {
     PcmDecoder::supported_codecs()
@@ -127,14 +119,17 @@ fn boxed(decoder: impl AudioDecoder + 'static) -> Box<dyn AudioDecoder> {
     Box::new(decoder)
 }
 
+/// AAC that is not read.
+pub(super) fn other_aac(ending: &'static str) -> Error {
+    let what = "AAC of another kind than LC with 1 or 2 channels";
+    unreadable(Refused::new(what, ending).sentence())
+}
+
 /// A kind of a codec that is not read, such as AAC with a second band (HE) or with more than two channels; or its
 /// header is broken.
-fn refused(error: &errors::Error, name: &str, ending: &str) -> Error {
+fn refused(error: &errors::Error, name: &str, ending: &'static str) -> Error {
     match error {
-        errors::Error::Unsupported(_) if name == "AAC" => unreadable(format!(
-            "it is AAC of another kind than LC with 1 or 2 channels, which is not read; ffmpeg -i IN.{ending} OUT.wav \
-             converts it"
-        )),
+        errors::Error::Unsupported(_) if name == "AAC" => other_aac(ending),
         errors::Error::Unsupported(what) => unreadable(format!(
             "its {name} is of a kind that is not read ({what}); ffmpeg -i IN.{ending} OUT.wav may convert it"
         )),

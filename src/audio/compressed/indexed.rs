@@ -1,26 +1,30 @@
 //! MP4, FLAC, AIFF and CAF, which symphonia takes apart.
 
-use std::io::{ErrorKind, Seek, SeekFrom};
+use std::io::ErrorKind;
 
 use symphonia::core::errors::Error as Problem;
 use symphonia::core::formats::{FormatOptions, FormatReader};
 use symphonia::core::io::{MediaSourceStream, ReadBytes};
+use symphonia::core::packet::Packet;
 use symphonia::core::units::Duration;
 use symphonia::default::formats::{AiffReader, CafReader, FlacReader, IsoMp4Reader};
 
 use super::edits::Edits;
 use super::index::index;
+use super::names::Names;
 use super::source::Source;
 use super::start::Start;
-use super::tracks::{self, Track};
+use super::tracks::{self, Ahead, Chosen};
 use super::{Next, Opened, Packets};
 use crate::Error;
-use crate::audio::unreadable;
+use crate::audio::{Track as Wanted, unreadable};
 
 /// A container that symphonia takes apart, and the stream of it that is listened to.
 struct Indexed<'s> {
     reader: Box<dyn FormatReader + 's>,
     track: u32,
+    /// What was read when the track was chosen.
+    ahead: Ahead,
     /// Where the next packet should begin, if packets say where they do.
     expected: Option<i64>,
     /// Whether that is so.
@@ -28,18 +32,13 @@ struct Indexed<'s> {
 }
 
 /// Opens an MP4 at its beginning.
-pub(super) fn mp4(source: Source<'_>) -> Result<Opened<'_>, Error> {
+pub(super) fn mp4(source: Source<'_>, wanted: Wanted) -> Result<Opened<'_>, Error> {
     let is_pipe = matches!(source, Source::Pipe(_));
     let (index, source) = index(source)?;
-    let edits = Edits::of(&index);
+    let (edits, names) = (Edits::of(&index), Names::of(&index));
     drop(index);
     let mut reader = mp4_reader(source.into_media(), is_pipe)?;
-    let track = tracks::choose(&mut *reader, "mp4", is_pipe)?;
-    if track.probed {
-        let mut media = reader.into_inner();
-        media.seek(SeekFrom::Start(0))?;
-        reader = mp4_reader(media, is_pipe)?;
-    }
+    let track = tracks::choose(&mut *reader, "mp4", &names, wanted)?;
     Ok(opened(reader, track, &edits, false))
 }
 
@@ -113,13 +112,13 @@ fn only<'s>(
     ending: &'static str,
     placed: bool,
 ) -> Result<Opened<'s>, Error> {
-    let track = tracks::choose(&mut *reader, ending, true)?;
+    let track = tracks::choose(&mut *reader, ending, &Names::default(), Wanted::WithSound)?;
     Ok(opened(reader, track, &Edits::default(), placed))
 }
 
 fn opened<'s>(
     reader: Box<dyn FormatReader + 's>,
-    track: Track,
+    track: Chosen,
     edits: &Edits,
     placed: bool,
 ) -> Opened<'s> {
@@ -130,6 +129,7 @@ fn opened<'s>(
         packets: Box::new(Indexed {
             reader,
             track: track.id,
+            ahead: track.ahead,
             expected: None,
             placed,
         }),
@@ -161,30 +161,49 @@ fn broken(problem: Problem, name: &str) -> Error {
     }
 }
 
+/// The next packet of any track, or the end.
+pub(super) fn packet(reader: &mut dyn FormatReader) -> Result<Result<Packet, Next>, Error> {
+    Ok(match reader.next_packet() {
+        Ok(Some(packet)) => Ok(packet),
+        Ok(None) => Err(Next::End),
+        Err(Problem::ResetRequired) => Err(Next::Changed),
+        Err(Problem::IoError(e)) if e.kind() != ErrorKind::UnexpectedEof => return Err(e.into()),
+        Err(_) => Err(Next::Cut),
+    })
+}
+
+impl Indexed<'_> {
+    /// The next packet of the track, or the end.
+    fn packet(&mut self) -> Result<Result<Packet, Next>, Error> {
+        if let Some(packet) = self.ahead.packets.pop_front() {
+            return Ok(Ok(packet));
+        }
+        if let Some(end) = self.ahead.end.take() {
+            return Ok(Err(end));
+        }
+        loop {
+            match packet(&mut *self.reader)? {
+                Ok(packet) if packet.track_id != self.track => {}
+                next => return Ok(next),
+            }
+        }
+    }
+}
+
 impl Packets for Indexed<'_> {
     fn next(&mut self) -> Result<Next, Error> {
-        loop {
-            let mut packet = match self.reader.next_packet() {
-                Ok(Some(packet)) => packet,
-                Ok(None) => return Ok(Next::End),
-                Err(Problem::ResetRequired) => return Ok(Next::Changed),
-                Err(Problem::IoError(e)) if e.kind() != ErrorKind::UnexpectedEof => {
-                    return Err(e.into());
-                }
-                Err(_) => return Ok(Next::Cut),
-            };
-            if packet.track_id != self.track {
-                continue;
-            }
-            let begins = packet.pts.get();
-            let late = self
-                .expected
-                .map_or(0, |expected| begins.saturating_sub(expected));
-            let lasts = i64::try_from(packet.dur.get()).unwrap_or(i64::MAX);
-            self.expected = self.placed.then(|| begins.saturating_add(lasts));
-            packet.trim_end = Duration::ZERO;
-            let lost = u64::try_from(late).unwrap_or(0);
-            return Ok(Next::Packet { packet, lost });
-        }
+        let mut packet = match self.packet()? {
+            Ok(packet) => packet,
+            Err(end) => return Ok(end),
+        };
+        let begins = packet.pts.get();
+        let late = self
+            .expected
+            .map_or(0, |expected| begins.saturating_sub(expected));
+        let lasts = i64::try_from(packet.dur.get()).unwrap_or(i64::MAX);
+        self.expected = self.placed.then(|| begins.saturating_add(lasts));
+        packet.trim_end = Duration::ZERO;
+        let lost = u64::try_from(late).unwrap_or(0);
+        Ok(Next::Packet { packet, lost })
     }
 }

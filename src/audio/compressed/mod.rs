@@ -8,6 +8,7 @@
 //! the edit list of an MP4 ([`edits`]) says how much, it is left out; frames of AAC by themselves keep it, and all their times
 //! are later by so much. What was added at the end stays: no header's word shortens a recording.
 
+mod atoms;
 mod codec;
 mod edits;
 mod frames;
@@ -16,6 +17,7 @@ mod header;
 mod index;
 mod indexed;
 mod losses;
+mod names;
 mod opening;
 mod overlaid;
 mod pages;

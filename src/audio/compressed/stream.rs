@@ -15,7 +15,7 @@ use super::{Next, Opened, Packets};
 use crate::Error;
 use crate::audio::content::Content;
 use crate::audio::wav::zero_what_is_not_finite;
-use crate::audio::{Ending, unreadable};
+use crate::audio::{Ending, Track, unreadable};
 
 /// Frames of silence that are handed over at a time.
 const BLOCK: u64 = 4_096;
@@ -75,9 +75,13 @@ impl<'s> Stream<'s> {
     ///
     /// # Errors
     /// [`Error::Recording`] if there is none, or it is of a kind that is not read; [`Error::Io`] if reading fails.
-    pub(in crate::audio) fn open(content: Content, source: Source<'s>) -> Result<Self, Error> {
+    pub(in crate::audio) fn open(
+        content: Content,
+        source: Source<'s>,
+        wanted: Track,
+    ) -> Result<Self, Error> {
         let broken = || unreadable("its header is damaged beyond what can be read");
-        let opened = guarded(|| open(content, source)).ok_or_else(broken)?;
+        let opened = guarded(|| open(content, source, wanted)).ok_or_else(broken)?;
         let Opened {
             packets,
             decoder,
@@ -213,6 +217,7 @@ impl<'s> Stream<'s> {
             } else {
                 packet.dur.get()
             };
+            self.fall_behind(packet);
             return self.lose(lasts.min(MOST_PER_PACKET));
         };
         let frames = decoded.frames();
@@ -228,16 +233,7 @@ impl<'s> Stream<'s> {
             return;
         }
         self.usual = frames as u64;
-        if self.units_per_s == Some(rate) {
-            // Time stamps that jitter are no gap: what counts is how far the sound has fallen behind them.
-            let dur = i64::try_from(packet.dur.get()).unwrap_or(i64::MAX);
-            let usual = self.usual.cast_signed();
-            let behind = self.behind.saturating_add(dur.saturating_sub(usual));
-            self.behind = behind.max(-usual);
-            if self.behind > usual / 2 {
-                self.gap = std::mem::take(&mut self.behind).unsigned_abs();
-            }
-        }
+        self.fall_behind(packet);
         let shown = self.shown(self.usual);
         let hidden = usize::try_from(self.usual - shown).unwrap_or(frames);
         for (ready, plane) in self.ready.iter_mut().zip(&mut planes) {
@@ -248,6 +244,21 @@ impl<'s> Stream<'s> {
         self.frames += shown;
         if self.marks {
             self.unmarked += shown;
+        }
+    }
+
+    /// Counts how far the sound, of which this packet has as much as is usual, has fallen behind the time stamps: these may
+    /// jitter, which is no gap.
+    fn fall_behind(&mut self, packet: &Packet) {
+        if self.units_per_s != Some(self.sample_rate_hz) {
+            return;
+        }
+        let dur = i64::try_from(packet.dur.get()).unwrap_or(i64::MAX);
+        let usual = self.usual.cast_signed();
+        let behind = self.behind.saturating_add(dur.saturating_sub(usual));
+        self.behind = behind.max(-usual);
+        if self.behind > usual / 2 {
+            self.gap = std::mem::take(&mut self.behind).unsigned_abs();
         }
     }
 
@@ -336,10 +347,10 @@ impl<'s> Stream<'s> {
             )
         });
         warnings.extend(ended);
-        warnings.extend(self.note);
         Ending {
             duration_s: at(self.frames),
             warnings,
+            tracks: self.note,
         }
     }
 }
