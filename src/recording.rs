@@ -25,7 +25,7 @@ pub enum Channel {
 
 impl Channel {
     /// The indices of the channels that are listened to, of this many.
-    fn of(self, channels: usize) -> Result<Range<usize>, Error> {
+    pub(crate) fn of(self, channels: usize) -> Result<Range<usize>, Error> {
         match self {
             Self::Best => Ok(0..channels),
             Self::Number(number) if (1..=channels).contains(&number) => Ok(number - 1..number),

@@ -7,9 +7,10 @@ use std::path::Path;
 pub const HEAD_BYTES: usize = 64;
 
 /// Endings of the names of recordings: of those that are read, and of those for which it is told how to convert them.
-const ENDINGS: [&str; 24] = [
+const ENDINGS: [&str; 28] = [
     "wav", "wave", "m4a", "mp4", "mov", "aac", "mp3", "flac", "ogg", "oga", "opus", "webm", "mka",
-    "amr", "3gp", "3ga", "wma", "aif", "aiff", "aifc", "caf", "qta", "avi", "w64",
+    "amr", "3gp", "3ga", "wma", "aif", "aiff", "aifc", "caf", "qta", "avi", "w64", "au", "wv",
+    "ape", "mp2",
 ];
 
 /// Whether the name of a file says that it should be a recording.
@@ -160,8 +161,17 @@ mod tests {
             b"OggS\0\x02\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x01\x13OpusHead",
             b"OggS",
             b"\xFF\xFD\x90\x64",
+            b".snd\0\0\0\x18",
+            b"wvpk",
+            b"MAC \x96\x0F",
+            b"\x30\x26\xB2\x75",
+            b"\0\0\0\x08moov",
         ] {
-            assert!(matches!(Content::of(head), Content::Refused(_)), "{head:?}");
+            let Content::Refused(what) = Content::of(head) else {
+                panic!("{head:?}");
+            };
+            // Files of such a name are offered the command that was meant, and are found in a folder.
+            assert!(has_ending(&Path::new("drop").with_extension(what.ending)));
             assert!(could_be_recording(head) || head[0] == 0xFF);
         }
     }

@@ -40,7 +40,7 @@ pub(super) struct Listening {
     timing: Timing,
 }
 
-fn channel(text: &str) -> Result<Channel, String> {
+pub(super) fn channel(text: &str) -> Result<Channel, String> {
     match text.parse() {
         _ if text == "best" => Ok(Channel::Best),
         Ok(number) if number > 0 => Ok(Channel::Number(number)),

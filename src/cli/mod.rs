@@ -119,6 +119,13 @@ pub fn run() -> Result<Outcome, Error> {
     }
 }
 
+/// The description of the command line, from which its manual pages are made.
+#[cfg(feature = "internals")]
+#[must_use]
+pub fn command() -> clap::Command {
+    Arguments::command()
+}
+
 fn parsed(given: &[OsString]) -> Result<Arguments, clap::Error> {
     let command = Arguments::command().term_width(terminal::help_width());
     let matches = command.try_get_matches_from(given)?;

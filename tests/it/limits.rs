@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// What docs/limits.md calls it, a command just beyond it, and what is said.
-const LIMITS: [(&str, &str, &str); 27] = [
+const LIMITS: [(&str, &str, &str); 31] = [
     (
         "sample rate",
         "analyze 159.wav",
@@ -87,6 +87,26 @@ const LIMITS: [(&str, &str, &str); 27] = [
         "label error is 0, expected above 0",
     ),
     (
+        "`--predict`, `--reach`",
+        "analyze drop.wav --predict 10001m",
+        "height is 10001, expected 1 µm to 10 km",
+    ),
+    (
+        "`--reach-bounce`",
+        "analyze drop.wav --reach 1m --reach-bounce 11",
+        "11 is not in 1..=10",
+    ),
+    (
+        "listen: `--rate`",
+        "listen - --raw s16le --rate 159",
+        "sample rate is 159, expected 4 times the lowest frequency that is listened to or more: 160 Hz by default",
+    ),
+    (
+        "listen: `--channels`",
+        "listen - --raw s16le --channels 65536",
+        "65536 is not in 1..=65535",
+    ),
+    (
         "`--jobs`",
         "batch drop.wav --jobs 65536",
         "65536 is not in 1..=65535",
@@ -144,7 +164,7 @@ const LIMITS: [(&str, &str, &str); 27] = [
 ];
 
 /// Every option that takes a number, given one below zero.
-const NEGATIVE: [&str; 27] = [
+const NEGATIVE: [&str; 31] = [
     "analyze drop.wav --height -30cm",
     "analyze drop.wav --height-error -1mm",
     "analyze drop.wav --mass -2.5g",
@@ -156,6 +176,10 @@ const NEGATIVE: [&str; 27] = [
     "analyze drop.wav --channel -1",
     "analyze drop.wav --track -1",
     "analyze drop.wav --impacts drop.txt --label-error -1ms",
+    "analyze drop.wav --predict -1m",
+    "analyze drop.wav --reach -1m",
+    "listen - --raw s16le --rate -1",
+    "listen - --raw s16le --channels -1",
     "batch drop.wav --jobs -2",
     "batch drop.wav --height -30cm",
     "batch drop.wav --contact-time -1ms",
