@@ -119,7 +119,8 @@ impl<'s> Stream<'s> {
                 Form::Compressed(Box::new(compressed::Stream::open(content, source, track)?))
             }
         };
-        if let (false, Track::Number(number @ (0 | 2..))) = (content == Content::Mp4, track) {
+        let has_tracks = matches!(content, Content::Mp4 | Content::Matroska);
+        if let (false, Track::Number(number @ (0 | 2..))) = (has_tracks, track) {
             let problem = format!("it has one track of sound, and no number {number}");
             return Err(unreadable(problem));
         }

@@ -41,9 +41,9 @@ use crate::report::{Report, WarningCode, csv, json, text};
   bounce-audio analyze voice-memo.m4a
   bounce-audio analyze -q drop.wav | while read -r e error bounces seconds \\
       warnings file; do echo \"$file: $e\"; done
-  ffmpeg -i drop.opus -f wav - | bounce-audio analyze -")]
+  ffmpeg -i drop.amr -f wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
-    /// A recording (WAV, FLAC, M4A, MP3, AAC, Ogg Vorbis), or - for standard input
+    /// A recording (WAV, FLAC, M4A, MP3, AAC, Ogg, WebM, video), or - for standard input
     file: PathBuf,
     #[command(flatten)]
     listening: Listening,

@@ -39,7 +39,7 @@ static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
         "{}{}\n{}\n{}{}",
         env!("CARGO_PKG_VERSION"),
         commit.unwrap_or_default(),
-        "reads     WAV, FLAC, ALAC, AAC, MP3, Ogg Vorbis, AIFF, CAF",
+        "reads     WAV, FLAC, ALAC, AAC, MP3, Vorbis, Opus, AIFF, CAF",
         "features  audio, plots, lab, cli",
         if cfg!(feature = "internals") {
             ", internals"

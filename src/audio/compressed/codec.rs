@@ -9,20 +9,34 @@ use symphonia::core::codecs::audio::{
 };
 use symphonia::core::codecs::registry::RegisterableAudioDecoder;
 use symphonia::core::errors;
+use symphonia::core::packet::Packet;
 use symphonia::default::codecs::{
     AacDecoder, AlacDecoder, FlacDecoder, MpaDecoder, PcmDecoder, VorbisDecoder,
 };
 
+use super::opus::{self, Opus};
 use crate::Error;
 use crate::audio::content::Refused;
 use crate::audio::unreadable;
 
-/// A decoder of the six that there are.
+/// A decoder of the seven that there are.
 pub(super) struct Decoder {
-    pub inner: Box<dyn AudioDecoder>,
+    inner: Inner,
     name: &'static str,
     pub is_lossy: bool,
     bits: Option<u32>,
+}
+
+enum Inner {
+    Symphonia(Box<dyn AudioDecoder>),
+    Opus(Box<Opus>),
+}
+
+/// The sound of a packet.
+pub(super) struct Decoded {
+    pub sample_rate_hz: u32,
+    /// The samples of each channel.
+    pub planes: Vec<Vec<f32>>,
 }
 
 impl Decoder {
@@ -46,8 +60,17 @@ impl Decoder {
                 params.max_frames_per_packet = None;
                 PcmDecoder::try_new(&params, &options).map(boxed)
             }
+            CODEC_ID_OPUS => {
+                let head = params.extra_data.as_deref().unwrap_or_default();
+                return Ok(Self {
+                    inner: Inner::Opus(Box::new(Opus::new(head, ending)?)),
+                    name,
+                    is_lossy: true,
+                    bits: None,
+                });
+            }
             other => {
-                let what = "neither AAC, ALAC, MP3, FLAC, Vorbis nor PCM (AMR perhaps)";
+                let what = "neither AAC, ALAC, MP3, FLAC, Vorbis, Opus nor PCM (AMR perhaps)";
                 let name = unread(other).unwrap_or(what);
                 return Err(unreadable(Refused::new(name, ending).sentence()));
             }
@@ -68,11 +91,38 @@ impl Decoder {
             _ => None,
         };
         Ok(Self {
-            inner,
+            inner: Inner::Symphonia(inner),
             name,
             is_lossy,
             bits,
         })
+    }
+
+    /// The sound of a packet; none if it is damaged.
+    pub(super) fn decode(&mut self, packet: &Packet) -> Option<Decoded> {
+        match &mut self.inner {
+            Inner::Symphonia(decoder) => {
+                let decoded = decoder.decode(packet).ok()?;
+                let mut planes = Vec::new();
+                decoded.copy_to_vecs_planar(&mut planes);
+                Some(Decoded {
+                    sample_rate_hz: decoded.spec().rate(),
+                    planes,
+                })
+            }
+            Inner::Opus(decoder) => Some(Decoded {
+                sample_rate_hz: opus::RATE_HZ,
+                planes: decoder.decode(&packet.data)?,
+            }),
+        }
+    }
+
+    /// Forgets what came before.
+    pub(super) fn reset(&mut self) {
+        match &mut self.inner {
+            Inner::Symphonia(decoder) => decoder.reset(),
+            Inner::Opus(decoder) => decoder.reset(),
+        }
     }
 
     /// The storage in words, such as `16-bit FLAC` or `AAC`.
@@ -87,7 +137,6 @@ impl Decoder {
 /// What is known and not read.
 fn unread(codec: AudioCodecId) -> Option<&'static str> {
     match codec {
-        CODEC_ID_OPUS => Some("Opus"),
         CODEC_ID_AC3 => Some("AC-3"),
         CODEC_ID_EAC3 => Some("Enhanced AC-3"),
         CODEC_ID_AC4 => Some("AC-4"),
@@ -103,6 +152,7 @@ pub(super) fn name(codec: AudioCodecId) -> &'static str {
         CODEC_ID_FLAC => "FLAC",
         CODEC_ID_MP3 => "MP3",
         CODEC_ID_VORBIS => "Vorbis",
+        CODEC_ID_OPUS => "Opus",
         other if is_pcm(other) => "PCM",
         other => unread(other).unwrap_or("of an unknown kind"),
     }
@@ -121,8 +171,14 @@ fn boxed(decoder: impl AudioDecoder + 'static) -> Box<dyn AudioDecoder> {
 
 /// AAC that is not read.
 pub(super) fn other_aac(ending: &'static str) -> Error {
-    let what = "AAC of another kind than LC with 1 or 2 channels";
-    unreadable(Refused::new(what, ending).sentence())
+    refused_kind("AAC", "LC with 1 or 2 channels", ending)
+}
+
+/// A codec of another kind than what is read of it.
+pub(super) fn refused_kind(name: &str, read: &str, ending: &str) -> Error {
+    unreadable(format!(
+        "it is {name} of another kind than {read}, which is not read; ffmpeg -i IN.{ending} OUT.wav converts it"
+    ))
 }
 
 /// A kind of a codec that is not read, such as AAC with a second band (HE) or with more than two channels; or its

@@ -17,10 +17,11 @@ pub(super) fn open(
 ) -> Result<Opened<'_>, Error> {
     match content {
         Content::Mp4 => indexed::mp4(source, wanted),
+        Content::Matroska => indexed::matroska(source, wanted),
         Content::Flac => indexed::flac(source),
         Content::Aiff => indexed::aiff(source),
         Content::Caf => indexed::caf(source),
-        Content::OggVorbis => pages::vorbis(source),
+        Content::Ogg => pages::ogg(source),
         Content::Adts => frames::adts(source),
         Content::Tagged => behind_tag(source),
         // A WAV or what is refused does not come here.

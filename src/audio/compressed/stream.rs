@@ -92,7 +92,7 @@ impl<'s> Stream<'s> {
         let mut stream = Self {
             packets,
             decoder,
-            marks: content == Content::OggVorbis,
+            marks: content == Content::Ogg,
             is_estimate: matches!(content, Content::Mp3 | Content::Adts | Content::Tagged),
             sample_rate_hz: 0,
             channels: 0,
@@ -180,7 +180,7 @@ impl<'s> Stream<'s> {
         match guarded(|| self.packets.next()).unwrap_or(Ok(Next::Cut))? {
             Next::Packet { packet, lost } => {
                 if lost > 0 {
-                    self.decoder.inner.reset();
+                    self.decoder.reset();
                     self.lose(lost);
                 }
                 let gap = std::mem::take(&mut self.gap);
@@ -191,10 +191,11 @@ impl<'s> Stream<'s> {
                     self.decode(&packet);
                 }
             }
-            Next::Lost => self.decoder.inner.reset(),
+            Next::Lost => self.decoder.reset(),
             Next::Mark(end) => self.place(end),
-            Next::Anew(decoder) => {
+            Next::Anew { decoder, start } => {
                 self.decoder = *decoder;
+                self.hidden = start.hidden.frames(self.sample_rate_hz);
                 self.mark = None;
             }
             end => self.end = Some(end),
@@ -204,11 +205,11 @@ impl<'s> Stream<'s> {
 
     /// Decodes a packet; what cannot be is silence for as long as it would have been.
     fn decode(&mut self, packet: &Packet) {
-        let Some(decoded) = guarded(|| self.decoder.inner.decode(packet)) else {
+        let Some(decoded) = guarded(|| self.decoder.decode(packet)) else {
             self.end = Some(Next::Cut);
             return;
         };
-        let Ok(decoded) = decoded else {
+        let Some(decoded) = decoded else {
             if self.marks {
                 return;
             }
@@ -220,10 +221,8 @@ impl<'s> Stream<'s> {
             self.fall_behind(packet);
             return self.lose(lasts.min(MOST_PER_PACKET));
         };
-        let frames = decoded.frames();
-        let (rate, channels) = (decoded.spec().rate(), decoded.num_planes());
-        let mut planes: Vec<Vec<f32>> = Vec::new();
-        decoded.copy_to_vecs_planar(&mut planes);
+        let (rate, mut planes) = (decoded.sample_rate_hz, decoded.planes);
+        let (channels, frames) = (planes.len(), planes.first().map_or(0, Vec::len));
         if self.channels == 0 {
             (self.sample_rate_hz, self.channels) = (rate, channels);
             self.ready = vec![Vec::new(); channels];

@@ -43,6 +43,8 @@ pub(super) struct Ahead {
 struct Candidate {
     id: u32,
     params: AudioCodecParameters,
+    /// Its language, where its container says it where others do.
+    language: Option<String>,
     /// What decodes it, as long as that works.
     decoder: Result<Decoder, Error>,
     /// Packets that were decoded to hear whether there is sound.
@@ -106,6 +108,7 @@ fn candidates(reader: &dyn FormatReader, ending: &'static str) -> Vec<Candidate>
         Some(CodecParameters::Audio(params)) => Some(Candidate {
             id: track.id,
             params: params.clone(),
+            language: track.language.clone().filter(|word| word != "und"),
             decoder: Decoder::new(params, ending),
             probed: 0,
             sounds: false,
@@ -145,7 +148,7 @@ fn list(all: &[Candidate], names: &Names) -> String {
 impl Candidate {
     fn words(&self, names: &[String]) -> String {
         let mut words = vec![codec::name(self.params.codec).to_owned()];
-        words.extend_from_slice(names);
+        words.extend(names.iter().chain(&self.language).cloned());
         words.extend(self.params.sample_rate.map(|hz| format!("{hz} Hz")));
         let channels = self
             .params
@@ -207,9 +210,6 @@ fn is_settled(all: &[Candidate]) -> bool {
 
 /// Whether a sample of a packet is not 0.
 fn has_sound(decoder: &mut Decoder, packet: &Packet) -> bool {
-    decoder.inner.decode(packet).is_ok_and(|decoded| {
-        let mut planes: Vec<Vec<f32>> = Vec::new();
-        decoded.copy_to_vecs_planar(&mut planes);
-        planes.iter().flatten().any(|x| *x != 0.0)
-    })
+    let decoded = decoder.decode(packet);
+    decoded.is_some_and(|decoded| decoded.planes.iter().flatten().any(|x| *x != 0.0))
 }
