@@ -73,11 +73,15 @@ const FORMATS: [(&str, &str, f64, f64); 18] = [
     ("drop-plain.mp3", "MP3", 1_105.0 / 32e3, 16e-6),
     ("drop-stereo-vbr.mp3", "MP3", 0.0, 16e-6),
     ("drop.ogg", "Vorbis", 0.0, 16e-6),
-    ("drop.opus", "Opus", 0.0, 16e-6),
-    ("drop.webm", "Opus", 0.0, 16e-6),
-    ("drop-opus.mp4", "Opus", 0.0, 16e-6),
+    ("drop.opus", "Opus", OPUS_LATER_S, 16e-6),
+    ("drop.webm", "Opus", OPUS_LATER_S, 16e-6),
+    ("drop-opus.mp4", "Opus", OPUS_LATER_S, 16e-6),
     ("drop-aac.mka", "AAC", 0.0, 16e-6),
 ];
+
+/// All times of Opus are earlier by two samples: one comes from going to its 48 kHz (a WAV of 48 kHz has 19 µs), the other from the
+/// foot of what it makes of a click. ffmpeg's decoding has the same.
+const OPUS_LATER_S: f64 = -47e-6;
 
 /// The impacts that are loud enough for any codec: the first of the drop.
 const LOUD: usize = 8;
@@ -302,11 +306,12 @@ fn a_gap_of_the_time_stamps_of_a_webm_is_silence() {
     let [whole, gap] =
         ["drop.webm", "drop-gap.webm"].map(|name| audio::read_file(&path(name)).unwrap());
     let (all, left) = (whole.channels[0].len(), gap.channels[0].len());
-    assert_eq!(all, left, "{:?}", gap.warnings);
+    // Its time stamps are whole milliseconds.
+    assert!(all.abs_diff(left) <= 48, "{all} {left}: {:?}", gap.warnings);
     // Five packets of 20 ms, 20 after those that are hidden for 6.5 ms, and what leans on them.
     let (from, to) = unlike_s(&whole, &gap).unwrap();
     assert!(from > 0.39 && to < 0.60, "from {from} s to {to} s");
-    assert!(gap.warnings[0].contains("0.100 s"), "{:?}", gap.warnings);
+    assert!(gap.warnings[0].contains("0.101 s"), "{:?}", gap.warnings);
 }
 
 #[test]

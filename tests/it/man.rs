@@ -14,6 +14,7 @@ fn read() -> BTreeMap<String, String> {
             .iter()
             .fold(text, |text, set| text.replace(set, ""))
             .replace("\\-", "-")
+            .replace("\\*(Aq", "'")
     };
     pages
         .into_iter()

@@ -34,6 +34,8 @@ struct Indexed<'s> {
     placed: bool,
     /// Where packets last until the next begins: units of a second of time stamps, and frames of one.
     until_next: Option<(u32, u32)>,
+    /// Whether only the end of the bytes says where it ends.
+    is_open: bool,
 }
 
 /// Opens a Matroska or `WebM` at its first byte.
@@ -41,6 +43,7 @@ struct Indexed<'s> {
 /// Its time stamps are in ms as a rule. What the encoder put before the first sample lies before 0; of Opus its header says it
 /// to the sample.
 pub(super) fn matroska(source: Source<'_>, wanted: Wanted) -> Result<Opened<'_>, Error> {
+    let is_open = matches!(source, Source::Pipe(_));
     let media = source.into_media();
     let mut reader = match MkvReader::try_new(media, FormatOptions::default()) {
         Ok(reader) => reader,
@@ -53,6 +56,7 @@ pub(super) fn matroska(source: Source<'_>, wanted: Wanted) -> Result<Opened<'_>,
     let head = params.and_then(|params| params.extra_data);
     let mut indexed = Indexed::new(Box::new(reader), track.id, track.ahead);
     indexed.until_next = units.zip(rate);
+    indexed.is_open = is_open;
     let begins = match indexed.packet()? {
         Ok(packet) => {
             let begins = packet.pts.get();
@@ -237,6 +241,7 @@ impl<'s> Indexed<'s> {
             expected: None,
             placed: false,
             until_next: None,
+            is_open: false,
         }
     }
 
@@ -262,9 +267,18 @@ impl<'s> Indexed<'s> {
 
     /// The next packet of the track, or the end.
     fn packet(&mut self) -> Result<Result<Packet, Next>, Error> {
-        if let Some(packet) = self.ahead.packets.pop_front() {
-            return Ok(Ok(packet));
-        }
+        let next = match self.ahead.packets.pop_front() {
+            Some(packet) => Ok(packet),
+            None => self.read()?,
+        };
+        Ok(match next {
+            Err(Next::Cut) if self.is_open => Err(Next::End),
+            next => next,
+        })
+    }
+
+    /// What comes behind what was read ahead.
+    fn read(&mut self) -> Result<Result<Packet, Next>, Error> {
         if let Some(end) = self.ahead.end.take() {
             return Ok(Err(end));
         }
