@@ -104,7 +104,7 @@ impl<'s> Stream<'s> {
         source.seek(SeekFrom::Start(0))?;
         let source = match content {
             Content::Mp4 => Source::seekable(source)?,
-            Content::Caf | Content::Matroska => Source::anywhere(source)?,
+            Content::Caf => Source::anywhere(source)?,
             // All others are read forwards, so that a file gives what a pipe gives.
             _ => Source::Pipe(Box::new(source)),
         };

@@ -76,8 +76,12 @@ const FORMATS: [(&str, &str, f64, f64); 18] = [
     ("drop.opus", "Opus", OPUS_LATER_S, 16e-6),
     ("drop.webm", "Opus", OPUS_LATER_S, 16e-6),
     ("drop-opus.mp4", "Opus", OPUS_LATER_S, 16e-6),
-    ("drop-aac.mka", "AAC", 0.0, 16e-6),
+    ("drop-aac.mka", "AAC", 1_024.0 / 32e3, 16e-6),
 ];
+
+fn is_matroska(name: &str) -> bool {
+    name.ends_with(".webm") || name.ends_with(".mka")
+}
 
 /// All times of Opus are earlier by two samples: one comes from going to its 48 kHz (a WAV of 48 kHz has 19 µs), the other from the
 /// foot of what it makes of a click. ffmpeg's decoding has the same.
@@ -308,9 +312,10 @@ fn a_gap_of_the_time_stamps_of_a_webm_is_silence() {
     let (all, left) = (whole.channels[0].len(), gap.channels[0].len());
     // Its time stamps are whole milliseconds.
     assert!(all.abs_diff(left) <= 48, "{all} {left}: {:?}", gap.warnings);
-    // Five packets of 20 ms, 20 after those that are hidden for 6.5 ms, and what leans on them.
-    let (from, to) = unlike_s(&whole, &gap).unwrap();
-    assert!(from > 0.39 && to < 0.60, "from {from} s to {to} s");
+    // Five packets of 20 ms after 20, less the 6.5 ms that are hidden.
+    let lost = &gap.channels[0][18_950..23_700];
+    assert!(lost.iter().all(|x| *x == 0.0));
+    assert!(whole.channels[0][18_950..23_700].iter().any(|x| *x != 0.0));
     assert!(gap.warnings[0].contains("0.101 s"), "{:?}", gap.warnings);
 }
 
@@ -366,6 +371,15 @@ fn what_is_damaged_is_silent_and_what_follows_keeps_its_time() {
         bytes[middle..middle + 600].fill(0);
         let torn = read(&bytes).unwrap_or_else(|e| panic!("{name}: {e}"));
         let (frames, frames_left) = (whole.channels[0].len(), torn.channels[0].len());
+        if is_matroska(name) {
+            // Behind the damage nothing says where the next packet is.
+            assert!(frames_left <= frames, "{name}");
+            assert!(
+                frames_left > frames / 3,
+                "{name}: {frames_left} of {frames}"
+            );
+            continue;
+        }
         if name == "drop-stereo-vbr.mp3" {
             // Its frames have many lengths, by which it can only be estimated how many were lost.
             assert!(
@@ -421,8 +435,9 @@ fn a_file_that_is_cut_gives_what_is_there() {
             whole.channels[0][..there * 9 / 10],
             "{name}"
         );
+        // A Matroska may end anywhere: browsers leave it so.
         assert!(
-            cut.warnings.iter().any(|w| w.contains("cut")),
+            is_matroska(name) || cut.warnings.iter().any(|w| w.contains("cut")),
             "{name}: {:?}",
             cut.warnings
         );
@@ -442,16 +457,18 @@ fn a_change_of_format_ends_it_with_a_warning() {
 
 #[test]
 fn streams_of_an_ogg_that_follow_each_other_are_one_recording() {
-    let one = bytes("drop.ogg");
-    let alone = read(&one).unwrap();
-    let both = read(&[one.clone(), one.clone()].concat()).unwrap();
-    assert!(both.warnings.is_empty(), "{:?}", both.warnings);
-    let (alone, both) = (&alone.channels[0], &both.channels[0]);
-    assert_eq!(both.len(), 2 * alone.len());
-    let differs = (alone.iter().chain(alone))
-        .zip(both)
-        .position(|(a, b)| a.to_bits() != b.to_bits());
-    assert_eq!(differs, None);
+    for name in ["drop.ogg", "drop.opus"] {
+        let one = bytes(name);
+        let alone = read(&one).unwrap();
+        let both = read(&[one.clone(), one.clone()].concat()).unwrap();
+        assert!(both.warnings.is_empty(), "{:?}", both.warnings);
+        let (alone, both) = (&alone.channels[0], &both.channels[0]);
+        assert_eq!(both.len(), 2 * alone.len());
+        let differs = (alone.iter().chain(alone))
+            .zip(both)
+            .position(|(a, b)| a.to_bits() != b.to_bits());
+        assert_eq!(differs, None, "{name}");
+    }
 }
 
 #[test]

@@ -34,29 +34,30 @@ struct Indexed<'s> {
     placed: bool,
     /// Where packets last until the next begins: units of a second of time stamps, and frames of one.
     until_next: Option<(u32, u32)>,
-    /// Whether only the end of the bytes says where it ends.
-    is_open: bool,
+    read: Read,
 }
+
+/// Reads the next packet of any track, or the end.
+pub(super) type Read = fn(&mut dyn FormatReader) -> Result<Result<Packet, Next>, Error>;
 
 /// Opens a Matroska or `WebM` at its first byte.
 ///
 /// Its time stamps are in ms as a rule. What the encoder put before the first sample lies before 0; of Opus its header says it
 /// to the sample.
 pub(super) fn matroska(source: Source<'_>, wanted: Wanted) -> Result<Opened<'_>, Error> {
-    let is_open = matches!(source, Source::Pipe(_));
     let media = source.into_media();
     let mut reader = match MkvReader::try_new(media, FormatOptions::default()) {
         Ok(reader) => reader,
         Err(problem) => return Err(broken(problem, "WebM or Matroska")),
     };
-    let track = tracks::choose(&mut reader, "webm", &Names::default(), wanted)?;
+    let track = tracks::choose(&mut reader, "webm", &Names::default(), wanted, open_packet)?;
     let params = params(&reader, track.id);
     let units = units_per_s(&reader, track.id);
     let rate = params.as_ref().and_then(|params| params.sample_rate);
     let head = params.and_then(|params| params.extra_data);
     let mut indexed = Indexed::new(Box::new(reader), track.id, track.ahead);
     indexed.until_next = units.zip(rate);
-    indexed.is_open = is_open;
+    indexed.read = open_packet;
     let begins = match indexed.packet()? {
         Ok(packet) => {
             let begins = packet.pts.get();
@@ -101,7 +102,7 @@ pub(super) fn mp4(source: Source<'_>, wanted: Wanted) -> Result<Opened<'_>, Erro
     let (edits, names) = (Edits::of(&index), Names::of(&index));
     drop(index);
     let mut reader = mp4_reader(source.into_media(), is_pipe)?;
-    let track = tracks::choose(&mut *reader, "mp4", &names, wanted)?;
+    let track = tracks::choose(&mut *reader, "mp4", &names, wanted, packet)?;
     Ok(opened(reader, track, &edits, false))
 }
 
@@ -175,7 +176,13 @@ fn only<'s>(
     ending: &'static str,
     placed: bool,
 ) -> Result<Opened<'s>, Error> {
-    let track = tracks::choose(&mut *reader, ending, &Names::default(), Wanted::WithSound)?;
+    let track = tracks::choose(
+        &mut *reader,
+        ending,
+        &Names::default(),
+        Wanted::WithSound,
+        packet,
+    )?;
     Ok(opened(reader, track, &Edits::default(), placed))
 }
 
@@ -221,13 +228,23 @@ fn broken(problem: Problem, name: &str) -> Error {
     }
 }
 
-/// The next packet of any track, or the end.
-pub(super) fn packet(reader: &mut dyn FormatReader) -> Result<Result<Packet, Next>, Error> {
-    Ok(match reader.next_packet() {
+fn packet(reader: &mut dyn FormatReader) -> Result<Result<Packet, Next>, Error> {
+    of(reader.next_packet(), Next::Cut)
+}
+
+/// The same where only the end of the bytes says where it ends, as in what a browser records.
+fn open_packet(reader: &mut dyn FormatReader) -> Result<Result<Packet, Next>, Error> {
+    of(reader.next_packet(), Next::End)
+}
+
+/// What a reader gave; `at_end`: what the end of the bytes is.
+fn of(next: Result<Option<Packet>, Problem>, at_end: Next) -> Result<Result<Packet, Next>, Error> {
+    Ok(match next {
         Ok(Some(packet)) => Ok(packet),
         Ok(None) => Err(Next::End),
         Err(Problem::ResetRequired) => Err(Next::Changed),
         Err(Problem::IoError(e)) if e.kind() != ErrorKind::UnexpectedEof => return Err(e.into()),
+        Err(Problem::IoError(_)) => Err(at_end),
         Err(_) => Err(Next::Cut),
     })
 }
@@ -241,7 +258,7 @@ impl<'s> Indexed<'s> {
             expected: None,
             placed: false,
             until_next: None,
-            is_open: false,
+            read: packet,
         }
     }
 
@@ -267,23 +284,14 @@ impl<'s> Indexed<'s> {
 
     /// The next packet of the track, or the end.
     fn packet(&mut self) -> Result<Result<Packet, Next>, Error> {
-        let next = match self.ahead.packets.pop_front() {
-            Some(packet) => Ok(packet),
-            None => self.read()?,
-        };
-        Ok(match next {
-            Err(Next::Cut) if self.is_open => Err(Next::End),
-            next => next,
-        })
-    }
-
-    /// What comes behind what was read ahead.
-    fn read(&mut self) -> Result<Result<Packet, Next>, Error> {
+        if let Some(packet) = self.ahead.packets.pop_front() {
+            return Ok(Ok(packet));
+        }
         if let Some(end) = self.ahead.end.take() {
             return Ok(Err(end));
         }
         loop {
-            match packet(&mut *self.reader)? {
+            match (self.read)(&mut *self.reader)? {
                 Ok(packet) if packet.track_id != self.track => {}
                 next => return Ok(next),
             }

@@ -6,7 +6,7 @@
 //!
 //! Encoders put a little before the first sample (of MP3 576 samples and more, of AAC 1024 or 2112). Where an MP3, an Ogg or
 //! the edit list of an MP4 ([`edits`]) says how much, it is left out; frames of AAC by themselves keep it, and all their times
-//! are later by so much. What was added at the end stays: no header's word shortens a recording.
+//! are later by so much. What was added at the end stays, but for what the sum of a page of Ogg vouches for.
 
 mod atoms;
 mod codec;

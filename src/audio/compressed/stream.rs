@@ -320,8 +320,19 @@ impl<'s> Stream<'s> {
         if missing > 0 {
             self.lose(missing);
         }
+        self.cut(due.map_or(0, |due| due.saturating_sub(end)));
         self.mark = Some(end);
         self.unmarked = 0;
+    }
+
+    /// Takes away what an encoder put at the end of its last page; another stream may follow, which keeps its time.
+    fn cut(&mut self, frames: u64) {
+        let there = self.ready.first().map_or(0, Vec::len);
+        let cut = usize::try_from(frames.min(self.unmarked)).map_or(there, |cut| cut.min(there));
+        for channel in &mut self.ready {
+            channel.truncate(there - cut);
+        }
+        self.frames -= cut as u64;
     }
 
     /// What is known after the last block.

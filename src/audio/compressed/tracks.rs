@@ -10,7 +10,7 @@ use symphonia::core::packet::Packet;
 use super::Next;
 use super::codec::{self, Decoder};
 use super::guard::guarded;
-use super::indexed::packet;
+use super::indexed::Read;
 use super::names::Names;
 use crate::Error;
 use crate::audio::content::Refused;
@@ -63,6 +63,7 @@ pub(super) fn choose(
     ending: &'static str,
     names: &Names,
     wanted: Track,
+    read: Read,
 ) -> Result<Chosen, Error> {
     let mut all = candidates(reader, ending);
     let mut ahead = Ahead::default();
@@ -71,7 +72,7 @@ pub(super) fn choose(
         Track::Number(number) if !all.is_empty() => return Err(not_there(number, &all, names)),
         _ => {
             if all.iter().filter(|track| track.decoder.is_ok()).count() > 1 {
-                ahead = probe(reader, &mut all)?;
+                ahead = probe(reader, read, &mut all)?;
             }
             let sounding = all.iter().position(|track| track.sounds);
             let readable = || all.iter().position(|track| track.decoder.is_ok());
@@ -181,11 +182,11 @@ impl Candidate {
 }
 
 /// Reads ahead until it is known which tracks have sound.
-fn probe(reader: &mut dyn FormatReader, all: &mut [Candidate]) -> Result<Ahead, Error> {
+fn probe(reader: &mut dyn FormatReader, read: Read, all: &mut [Candidate]) -> Result<Ahead, Error> {
     let mut ahead = Ahead::default();
     let mut bytes = 0;
     while bytes < MOST_BYTES && !is_settled(all) {
-        let packet = match guarded(|| packet(reader)).unwrap_or(Ok(Err(Next::Cut)))? {
+        let packet = match guarded(|| read(reader)).unwrap_or(Ok(Err(Next::Cut)))? {
             Ok(packet) => packet,
             Err(end) => {
                 ahead.end = Some(end);
