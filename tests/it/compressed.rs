@@ -83,7 +83,7 @@ fn is_matroska(name: &str) -> bool {
     name.ends_with(".webm") || name.ends_with(".mka")
 }
 
-/// All times of Opus are earlier by two samples: one comes from going to its 48 kHz (a WAV of 48 kHz has 19 µs), the other from the
+/// All times of Opus are earlier by two samples: one comes from going to another rate (a WAV of 48 kHz has 19 µs), the other from the
 /// foot of what it makes of a click. ffmpeg's decoding has the same.
 const OPUS_LATER_S: f64 = -47e-6;
 

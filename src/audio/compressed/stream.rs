@@ -249,10 +249,14 @@ impl<'s> Stream<'s> {
     /// Counts how far the sound, of which this packet has as much as is usual, has fallen behind the time stamps: these may
     /// jitter, which is no gap.
     fn fall_behind(&mut self, packet: &Packet) {
-        if self.units_per_s != Some(self.sample_rate_hz) {
+        // Opus counts in an MP4 by the rate that it was made from, a part of its own.
+        let rate = self.sample_rate_hz;
+        let units = self.units_per_s.filter(|units| rate.is_multiple_of(*units));
+        let Some(units) = units else {
             return;
-        }
-        let dur = i64::try_from(packet.dur.get()).unwrap_or(i64::MAX);
+        };
+        let dur = packet.dur.get().saturating_mul(u64::from(rate / units));
+        let dur = i64::try_from(dur).unwrap_or(i64::MAX);
         let usual = self.usual.cast_signed();
         let behind = self.behind.saturating_add(dur.saturating_sub(usual));
         self.behind = behind.max(-usual);
