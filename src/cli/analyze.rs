@@ -43,7 +43,7 @@ use crate::report::{Report, WarningCode, csv, json, text};
       warnings file; do echo \"$file: $e\"; done
   ffmpeg -i drop.amr -f wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
-    /// A recording (WAV, FLAC, M4A, MP3, AAC, Ogg, WebM, video), or - for standard input
+    /// A recording (WAV, FLAC, M4A, MP3, AAC, Ogg, a video), or - for standard input
     file: PathBuf,
     #[command(flatten)]
     listening: Listening,

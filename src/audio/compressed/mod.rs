@@ -1,4 +1,4 @@
-//! Recordings that are no WAV: MP4, Matroska and WebM, ADTS (AAC), MP3, FLAC, Ogg (Vorbis, Opus), AIFF and CAF, in blocks.
+//! Recordings that are no WAV: MP4, Matroska and `WebM`, ADTS (AAC), MP3, FLAC, Ogg (Vorbis, Opus), AIFF and CAF, in blocks.
 //!
 //! The crate symphonia has the decoders but that of Opus ([`opus`]), and takes MP4, Matroska, FLAC, AIFF and CAF apart. Frames of MP3 and ADTS ([`frames`]) and pages of Ogg
 //! ([`pages`]) are found here: where some are damaged, it has to be known how much sound they held, so that what comes

@@ -2,6 +2,7 @@
 
 use std::collections::VecDeque;
 
+use symphonia::core::audio::Channels;
 use symphonia::core::codecs::CodecParameters;
 use symphonia::core::codecs::audio::{AudioCodecParameters, CODEC_ID_NULL_AUDIO};
 use symphonia::core::formats::FormatReader;
@@ -151,11 +152,7 @@ impl Candidate {
         let mut words = vec![codec::name(self.params.codec).to_owned()];
         words.extend(names.iter().chain(&self.language).cloned());
         words.extend(self.params.sample_rate.map(|hz| format!("{hz} Hz")));
-        let channels = self
-            .params
-            .channels
-            .as_ref()
-            .map(|channels| channels.count());
+        let channels = self.params.channels.as_ref().map(Channels::count);
         words.extend(channels.map(|count| match count {
             1 => "1 channel".to_owned(),
             count => format!("{count} channels"),

@@ -146,6 +146,7 @@ mod tests {
 
     use super::*;
     use crate::synth::{presets::preset, render};
+    use crate::units::samples_in;
 
     /// A command line of this command alone.
     #[derive(Parser)]
@@ -169,7 +170,7 @@ mod tests {
         let last_s = made.truth.drops[0].impacts_s.last().unwrap();
         let rate = f64::from(made.truth.sample_rate_hz);
         // Silence in the other channel, and the end soon after the last impact: before the drop would be told.
-        let heard = &made.samples[..((last_s + 0.1) * rate) as usize];
+        let heard = &made.samples[..samples_in(last_s + 0.1, rate)];
         let frames = heard.iter().flat_map(|x| [0.0_f32, *x]);
         let bytes: Vec<u8> = frames.flat_map(f32::to_le_bytes).collect();
         let rate = made.truth.sample_rate_hz.to_string();
