@@ -25,7 +25,7 @@ pub enum Channel {
 
 impl Channel {
     /// The indices of the channels that are listened to, of this many.
-    fn of(self, channels: usize) -> Result<Range<usize>, Error> {
+    pub(crate) fn of(self, channels: usize) -> Result<Range<usize>, Error> {
         match self {
             Self::Best => Ok(0..channels),
             Self::Number(number) if (1..=channels).contains(&number) => Ok(number - 1..number),
@@ -118,7 +118,11 @@ impl Request<'_> {
         };
         let repairs = ending.warnings.into_iter();
         let repairs = repairs.map(|message| Warning::new(WarningCode::Repaired, message));
-        let of_reading = repairs.chain(lossy.then(|| of_lossy(&encoding)));
+        let tracks = ending.tracks.into_iter();
+        let tracks = tracks.map(|message| Warning::new(WarningCode::SeveralTracks, message));
+        let of_reading = repairs
+            .chain(tracks)
+            .chain(lossy.then(|| of_lossy(&encoding)));
         let duration_s = ending.duration_s / settings.time_scale;
         let recording = RecordingInfo::new(sample_rate_hz, duration_s, encoding)
             .with_channel(channel + 1, channels);

@@ -4,8 +4,8 @@ use super::Settings;
 use crate::fit::Estimate;
 use crate::physics::priors::{ONE_BOUNCE, SPEED_EXPONENT_BEYOND};
 use crate::physics::{BallModel, DRAG_RELATIVE_STD, FlightLaw};
-use crate::report::{Drop, Prediction, Reach, Rebounds};
-use crate::statistics::{NORMAL95, bisected};
+use crate::report::{Drop, HIGHEST, Prediction, Reach, Rebounds};
+use crate::statistics::bisected;
 use crate::units::real;
 
 /// What is asked.
@@ -19,8 +19,6 @@ pub struct Question {
 
 /// As many bounces are predicted, which is what two lines of text hold.
 const BOUNCES: usize = 10;
-/// A fall is no higher than this many times the height that a bounce shall reach.
-const HIGHEST: f64 = 1e4;
 /// Halvings of the range of a height: to 10⁻¹² of it.
 const HALVINGS: usize = 43;
 /// A change of a height of which the change of a rebound is taken, relative.
@@ -138,7 +136,10 @@ impl Law {
 
     fn height(&self, from_m: f64, n: usize) -> Option<Estimate> {
         let value = self.height_m(from_m, n)?;
-        Some(with_std(value, self.relative_std(from_m, n)?))
+        Some(Estimate::with_relative_std(
+            value,
+            self.relative_std(from_m, n)?,
+        ))
     }
 
     /// The height of release from which bounce `n` rises to a height; none where not even [`HIGHEST`] times that is enough.
@@ -152,16 +153,10 @@ impl Law {
         let [less, more] = [from_m / (1.0 + STEP), from_m * (1.0 + STEP)];
         let rise = (self.height_m(more, n)? / self.height_m(less, n)?).ln();
         let slope = rise / (2.0 * (1.0 + STEP).ln());
-        Some(with_std(from_m, self.relative_std(from_m, n)? / slope))
-    }
-}
-
-fn with_std(value: f64, relative_std: f64) -> Estimate {
-    let std = value * relative_std;
-    Estimate {
-        value,
-        std_error: Some(std),
-        interval95: Some([(value - NORMAL95 * std).max(0.0), value + NORMAL95 * std]),
+        Some(Estimate::with_relative_std(
+            from_m,
+            self.relative_std(from_m, n)? / slope,
+        ))
     }
 }
 

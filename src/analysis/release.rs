@@ -9,7 +9,7 @@ use crate::impact::Impact;
 use crate::physics::priors::{ONE_BOUNCE, SPEED_EXPONENT_BEYOND};
 use crate::physics::{BallModel, FlightLaw};
 use crate::report::Release;
-use crate::statistics::{NORMAL95, bisected};
+use crate::statistics::bisected;
 
 /// Steps to the speed whose rebound is that heard: e changes so little with the speed that each wins a digit.
 const STEPS: usize = 20;
@@ -72,13 +72,13 @@ pub(super) fn release(
     let relative = (2.0 * speed_std).hypot(0.5 * (more / less).ln());
     let gravity = settings.height_m.map(|given_m| {
         let by_height = settings.height_std_m / given_m;
-        with_std(
+        Estimate::with_relative_std(
             settings.gravity_m_per_s2 * given_m / middle,
             relative.hypot(by_height),
         )
     });
     Ok(Some(Release {
-        height_m: with_std(middle, relative),
+        height_m: Estimate::with_relative_std(middle, relative),
         gravity_m_per_s2: gravity,
     }))
 }
@@ -101,15 +101,6 @@ fn height_m(law: &FlightLaw, speed: f64) -> Result<f64, Error> {
     };
     let height = bisected((0.5 * free, HIGHER * free), HALVINGS, slower);
     law.fall(height).map(|_| height)
-}
-
-fn with_std(value: f64, relative_std: f64) -> Estimate {
-    let std = value * relative_std;
-    Estimate {
-        value,
-        std_error: Some(std),
-        interval95: Some([(value - NORMAL95 * std).max(0.0), value + NORMAL95 * std]),
-    }
 }
 
 #[cfg(test)]

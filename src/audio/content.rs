@@ -7,9 +7,10 @@ use std::path::Path;
 pub const HEAD_BYTES: usize = 64;
 
 /// Endings of the names of recordings: of those that are read, and of those for which it is told how to convert them.
-const ENDINGS: [&str; 24] = [
+const ENDINGS: [&str; 29] = [
     "wav", "wave", "m4a", "mp4", "mov", "aac", "mp3", "flac", "ogg", "oga", "opus", "webm", "mka",
-    "amr", "3gp", "3ga", "wma", "aif", "aiff", "aifc", "caf", "qta", "avi", "w64",
+    "mkv", "amr", "3gp", "3ga", "wma", "aif", "aiff", "aifc", "caf", "qta", "avi", "w64", "au",
+    "wv", "ape", "mp2",
 ];
 
 /// Whether the name of a file says that it should be a recording.
@@ -44,7 +45,10 @@ pub(super) enum Content {
     /// A tag (`ID3v2`), with MP3, AAC or FLAC behind it.
     Tagged,
     Flac,
-    OggVorbis,
+    /// Vorbis or Opus in an Ogg.
+    Ogg,
+    /// Matroska or `WebM`.
+    Matroska,
     Aiff,
     /// A Core Audio file.
     Caf,
@@ -81,7 +85,7 @@ impl Content {
             [_, _, _, _, b'f', b't', b'y', b'p', ..] => Self::Mp4,
             [b'I', b'D', b'3', ..] => Self::Tagged,
             [b'#', b'!', b'A', b'M', b'R', ..] => refused("AMR", "amr"),
-            [0x1A, 0x45, 0xDF, 0xA3, ..] => refused("WebM or Matroska", "webm"),
+            [0x1A, 0x45, 0xDF, 0xA3, ..] => Self::Matroska,
             [0x30, 0x26, 0xB2, 0x75, ..] => refused("Windows Media", "wma"),
             [b'F', b'O', b'R', b'M', _, _, _, _, b'A', b'I', b'F', ..] => Self::Aiff,
             [b'c', b'a', b'f', b'f', ..] => Self::Caf,
@@ -121,11 +125,10 @@ impl Content {
 fn ogg(head: &[u8]) -> Content {
     let refused = |name, ending| Content::Refused(Refused::new(name, ending));
     match head.get(28..).unwrap_or_default() {
-        [1, b'v', b'o', b'r', b'b', b'i', b's', ..] => Content::OggVorbis,
-        [b'O', b'p', b'u', b's', ..] => refused("Opus", "opus"),
+        [1, b'v', b'o', b'r', b'b', b'i', b's', ..] | [b'O', b'p', b'u', b's', ..] => Content::Ogg,
         [b'S', b'p', b'e', b'e', b'x', ..] => refused("Speex", "ogg"),
         [0x7F, b'F', b'L', b'A', b'C', ..] => refused("FLAC in an Ogg", "ogg"),
-        _ => refused("an Ogg without Vorbis", "ogg"),
+        _ => refused("an Ogg without Vorbis or Opus", "ogg"),
     }
 }
 
@@ -148,20 +151,32 @@ mod tests {
             (b"\xFF\xE3\x18\xC4", Content::Mp3),
             (b"FORM\0\0\0\0AIFC", Content::Aiff),
             (b"caff\0\x01", Content::Caf),
+            (b"\x1A\x45\xDF\xA3", Content::Matroska),
+            (
+                b"OggS\0\x02\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x01\x13OpusHead",
+                Content::Ogg,
+            ),
         ] {
             assert_eq!(Content::of(head), content, "{head:?}");
         }
         for head in [
             &b"#!AMR\n"[..],
             b"#!AMR-WB\n",
-            b"\x1A\x45\xDF\xA3",
             b"RIFF\0\0\0\0AVI LIST",
             b"riff\x2E\x91\xCF\x11",
-            b"OggS\0\x02\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x01\x13OpusHead",
             b"OggS",
             b"\xFF\xFD\x90\x64",
+            b".snd\0\0\0\x18",
+            b"wvpk",
+            b"MAC \x96\x0F",
+            b"\x30\x26\xB2\x75",
+            b"\0\0\0\x08moov",
         ] {
-            assert!(matches!(Content::of(head), Content::Refused(_)), "{head:?}");
+            let Content::Refused(what) = Content::of(head) else {
+                panic!("{head:?}");
+            };
+            // Files of such a name are offered the command that was meant, and are found in a folder.
+            assert!(has_ending(&Path::new("drop").with_extension(what.ending)));
             assert!(could_be_recording(head) || head[0] == 0xFF);
         }
     }

@@ -39,6 +39,7 @@ impl<'s> Stream<'s> {
         Ending {
             duration_s: real(self.frames()) / f64::from(self.recording.sample_rate_hz),
             warnings: self.recording.warnings.clone(),
+            tracks: self.recording.tracks.clone(),
         }
     }
 }
@@ -59,6 +60,7 @@ mod tests {
             encoding: "AAC".to_owned(),
             lossy: true,
             warnings: vec!["repaired".to_owned()],
+            tracks: None,
         };
         let again = audio::Stream::again(&recording).into_recording().unwrap();
         assert_eq!(again.channels, recording.channels);

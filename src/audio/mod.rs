@@ -34,6 +34,19 @@ pub struct Recording {
     pub lossy: bool,
     /// What was repaired while reading.
     pub warnings: Vec<String>,
+    /// All tracks of sound and which was read, where there are several and none was asked for.
+    pub tracks: Option<String>,
+}
+
+/// Which track of sound is read of a file with several, as videos may have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum Track {
+    /// The first that can be read and has sound; the first that can be read where none has.
+    #[default]
+    WithSound,
+    /// The one with this number among those of sound, from 1.
+    Number(usize),
 }
 
 /// What is known of a recording once it was read.
@@ -44,6 +57,8 @@ pub struct Ending {
     pub duration_s: f64,
     /// What was repaired while reading.
     pub warnings: Vec<String>,
+    /// All tracks of sound and which was read, where there are several and none was asked for.
+    pub tracks: Option<String>,
 }
 
 /// Reads a file.
@@ -88,12 +103,16 @@ impl Stream<'_> {
         }
         let (sample_rate_hz, encoding) = (self.sample_rate_hz(), self.encoding());
         let lossy = self.is_lossy();
+        let Ending {
+            warnings, tracks, ..
+        } = self.finish()?;
         Ok(Some(Recording {
             sample_rate_hz,
             channels,
             encoding,
             lossy,
-            warnings: self.finish()?.warnings,
+            warnings,
+            tracks,
         }))
     }
 }

@@ -9,7 +9,7 @@ use super::compressed::{self, Source};
 use super::content::{Content, HEAD_BYTES};
 use super::memory;
 use super::wav::{self, fill};
-use super::{Ending, Recording, unreadable};
+use super::{Ending, Recording, Track, unreadable};
 use crate::Error;
 
 /// A recording that stands at its samples. What is held of it does not grow with its length.
@@ -41,15 +41,23 @@ impl Stream<'static> {
     /// [`Error::InFile`] naming the file, with the reason: it cannot be opened, is a directory, is empty, or is no
     /// recording that can be read.
     pub fn open_file(path: &Path) -> Result<Self, Error> {
+        Self::open_file_track(path, Track::default())
+    }
+
+    /// Opens one track of a file.
+    ///
+    /// # Errors
+    /// As [`open_file`](Self::open_file); if the file has no such track, with a list of those that it has.
+    pub fn open_file_track(path: &Path, track: Track) -> Result<Self, Error> {
         let open = || -> Result<Self, Error> {
             if path.is_dir() {
                 return Err(unreadable("it is a directory"));
             }
             let file = File::open(path)?;
             if file.metadata()?.is_file() {
-                Self::open_seekable(file)
+                Self::of_seekable(file, track)
             } else {
-                Self::open(file)
+                Self::open_track(file, track)
             }
         };
         open().map_err(|e| e.in_file(path))
@@ -62,20 +70,36 @@ impl<'s> Stream<'s> {
     /// # Errors
     /// [`Error::Wav`] or [`Error::Recording`] if it is no recording that can be read, such as an MP4 with its index at the
     /// end; [`Error::Io`] if reading fails.
-    pub fn open(mut source: impl Read + Send + Sync + 's) -> Result<Self, Error> {
+    pub fn open(source: impl Read + Send + Sync + 's) -> Result<Self, Error> {
+        Self::open_track(source, Track::default())
+    }
+
+    /// Opens one track of what comes from a pipe.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open); if there is no such track, with a list of those that there are.
+    pub fn open_track(
+        mut source: impl Read + Send + Sync + 's,
+        track: Track,
+    ) -> Result<Self, Error> {
         let head = head(&mut source)?;
         let content = Content::of(&head);
-        Self::of(
-            content,
-            Source::Pipe(Box::new(Cursor::new(head).chain(source))),
-        )
+        let source = Source::Pipe(Box::new(Cursor::new(head).chain(source)));
+        Self::of(content, source, track)
     }
 
     /// Opens what can be read anywhere, such as a file or a [`Cursor`] over bytes in memory.
     ///
     /// # Errors
     /// As [`open`](Self::open).
-    pub fn open_seekable(mut source: impl Read + Seek + Send + Sync + 's) -> Result<Self, Error> {
+    pub fn open_seekable(source: impl Read + Seek + Send + Sync + 's) -> Result<Self, Error> {
+        Self::of_seekable(source, Track::default())
+    }
+
+    fn of_seekable(
+        mut source: impl Read + Seek + Send + Sync + 's,
+        track: Track,
+    ) -> Result<Self, Error> {
         let content = Content::of(&head(&mut source)?);
         source.seek(SeekFrom::Start(0))?;
         let source = match content {
@@ -84,17 +108,22 @@ impl<'s> Stream<'s> {
             // All others are read forwards, so that a file gives what a pipe gives.
             _ => Source::Pipe(Box::new(source)),
         };
-        Self::of(content, source)
+        Self::of(content, source, track)
     }
 
-    fn of(content: Content, source: Source<'s>) -> Result<Self, Error> {
+    fn of(content: Content, source: Source<'s>, track: Track) -> Result<Self, Error> {
         let form = match (content, source) {
             (Content::Wav, Source::Pipe(source)) => Form::Wav(wav::Stream::open(source)?),
             (Content::Refused(what), _) => return Err(unreadable(what.sentence())),
             (content, source) => {
-                Form::Compressed(Box::new(compressed::Stream::open(content, source)?))
+                Form::Compressed(Box::new(compressed::Stream::open(content, source, track)?))
             }
         };
+        let has_tracks = matches!(content, Content::Mp4 | Content::Matroska);
+        if let (false, Track::Number(number @ (0 | 2..))) = (has_tracks, track) {
+            let problem = format!("it has one track of sound, and no number {number}");
+            return Err(unreadable(problem));
+        }
         Ok(Self { form })
     }
 

@@ -41,9 +41,9 @@ use crate::report::{Report, WarningCode, csv, json, text};
   bounce-audio analyze voice-memo.m4a
   bounce-audio analyze -q drop.wav | while read -r e error bounces seconds \\
       warnings file; do echo \"$file: $e\"; done
-  ffmpeg -i drop.opus -f wav - | bounce-audio analyze -")]
+  ffmpeg -i drop.amr -f wav - | bounce-audio analyze -")]
 pub(super) struct Arguments {
-    /// A recording (WAV, FLAC, M4A, MP3, AAC, Ogg Vorbis), or - for standard input
+    /// A recording (WAV, FLAC, M4A, MP3, AAC, Ogg, a video), or - for standard input
     file: PathBuf,
     #[command(flatten)]
     listening: Listening,
@@ -89,6 +89,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         check_readable_twice(&arguments.file)?;
     }
     let labels = arguments.labels.given()?;
+    let track = arguments.listening.track();
     let request = Request {
         labels,
         rule: arguments.rule.rule,
@@ -103,17 +104,18 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         .in_file(&arguments.file));
     }
     let report = if arguments.file == Path::new("-") {
-        let stream = Stream::open(io::stdin());
+        let stream = Stream::open_track(io::stdin(), track);
         let report = stream.and_then(|stream| request.listen(stream, "-"));
         report.map_err(|e| e.in_file("standard input"))?
     } else {
-        listen_to_file(&arguments.file, &request)?
+        listen_to_file(&arguments.file, track, &request)?
     };
     arguments.labels.write(&report)?;
     if let Some(target) = target {
-        draw_sheets(&target, &arguments.file, &report)?;
+        draw_sheets(&target, &arguments.file, track, &report)?;
     }
-    keep(&arguments.document, &arguments.file, &report, figures)?;
+    let sheets = |file: &Path, report: &Report| figures(file, track, report);
+    keep(&arguments.document, &arguments.file, &report, sheets)?;
     let output = match arguments.format {
         Format::Text => {
             let advice = |code| advice(&report, code);
@@ -190,6 +192,7 @@ fn advice(report: &Report, code: WarningCode) -> Option<&'static str> {
         WarningCode::NoDrop if report.rejected.is_empty() => return None,
         WarningCode::NoDrop if height_known => "--start and --end",
         WarningCode::NoDrop => "--height, --start and --end",
+        WarningCode::SeveralTracks => "--track",
         WarningCode::StrayTime => "--labels and --impacts",
         WarningCode::AirDrag if drag_known => return None,
         WarningCode::LeftOut => "--start and --end",

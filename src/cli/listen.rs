@@ -7,7 +7,7 @@ use clap::Args;
 use super::known::{Known, Word, one_of};
 use super::quantity::time;
 use crate::Error;
-use crate::audio::Stream;
+use crate::audio::{Stream, Track};
 use crate::recording::{Channel, Request};
 use crate::report::Report;
 use crate::timing::Timing;
@@ -26,6 +26,9 @@ pub(super) struct Listening {
         allow_hyphen_values = true
     )]
     channel: Channel,
+    /// Which track of sound to listen to, of a file with several (the first that has sound): its number from 1
+    #[arg(long, value_name = "N", value_parser = track, allow_hyphen_values = true)]
+    track: Option<Track>,
     /// Listen from here: 2s, 1.5, 2min, 1:30
     #[arg(long, value_parser = time, allow_hyphen_values = true)]
     start: Option<f64>,
@@ -37,11 +40,18 @@ pub(super) struct Listening {
     timing: Timing,
 }
 
-fn channel(text: &str) -> Result<Channel, String> {
+pub(super) fn channel(text: &str) -> Result<Channel, String> {
     match text.parse() {
         _ if text == "best" => Ok(Channel::Best),
         Ok(number) if number > 0 => Ok(Channel::Number(number)),
         _ => Err("expected best or a number from 1".to_owned()),
+    }
+}
+
+fn track(text: &str) -> Result<Track, String> {
+    match text.parse() {
+        Ok(number) if number > 0 => Ok(Track::Number(number)),
+        _ => Err("expected a number from 1".to_owned()),
     }
 }
 
@@ -69,6 +79,11 @@ const TIMINGS: [Word<Timing>; 4] = [
 ];
 
 impl Listening {
+    /// The track that is listened to.
+    pub(super) fn track(&self) -> Track {
+        self.track.unwrap_or_default()
+    }
+
     /// What the library is asked.
     pub(super) fn request(&self) -> Request<'static> {
         let settings = self
@@ -85,9 +100,13 @@ impl Listening {
     }
 }
 
-/// The report of a file.
-pub(super) fn listen_to_file(path: &Path, request: &Request<'_>) -> Result<Report, Error> {
-    let stream = Stream::open_file(path)?;
+/// The report of a track of a file.
+pub(super) fn listen_to_file(
+    path: &Path,
+    track: Track,
+    request: &Request<'_>,
+) -> Result<Report, Error> {
+    let stream = Stream::open_file_track(path, track)?;
     let report = request.listen(stream, &name(path));
     report.map_err(|e| e.in_file(path))
 }

@@ -39,7 +39,7 @@ static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
         "{}{}\n{}\n{}{}",
         env!("CARGO_PKG_VERSION"),
         commit.unwrap_or_default(),
-        "reads     WAV, FLAC, ALAC, AAC, MP3, Ogg Vorbis, AIFF, CAF",
+        "reads     WAV, FLAC, ALAC, AAC, MP3, Vorbis, Opus, AIFF, CAF",
         "features  audio, plots, lab, cli",
         if cfg!(feature = "internals") {
             ", internals"
@@ -117,6 +117,13 @@ pub fn run() -> Result<Outcome, Error> {
         Err(error) if json => Ok(failure::in_json(&error)),
         outcome => outcome,
     }
+}
+
+/// The description of the command line, from which its manual pages are made.
+#[cfg(feature = "internals")]
+#[must_use]
+pub fn command() -> clap::Command {
+    Arguments::command()
 }
 
 fn parsed(given: &[OsString]) -> Result<Arguments, clap::Error> {

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::output;
 use crate::Error;
-use crate::audio::Stream;
+use crate::audio::{Stream, Track};
 use crate::picture::sheet::sheets;
 use crate::picture::sound::Sound;
 use crate::plot::{self, Figure};
@@ -89,8 +89,13 @@ pub(super) fn check_readable_twice(recording: &Path) -> Result<(), Error> {
 }
 
 /// Draws the sheets of a report on the recording in a file: into the target, or, of several drops, each into its own.
-pub(super) fn draw_sheets(target: &Target, file: &Path, report: &Report) -> Result<(), Error> {
-    draw_all(target, &figures(file, report)?)
+pub(super) fn draw_sheets(
+    target: &Target,
+    file: &Path,
+    track: Track,
+    report: &Report,
+) -> Result<(), Error> {
+    draw_all(target, &figures(file, track, report)?)
 }
 
 /// One picture into the target, several each into its own.
@@ -103,8 +108,8 @@ pub(super) fn draw_all(target: &Target, figures: &[Figure]) -> Result<(), Error>
     }
 }
 
-/// The sheets of a report on the recording in a file.
-pub(super) fn figures(file: &Path, report: &Report) -> Result<Vec<Figure>, Error> {
+/// The sheets of a report on a track of a file.
+pub(super) fn figures(file: &Path, track: Track, report: &Report) -> Result<Vec<Figure>, Error> {
     let drops = report.drops.len();
     if drops > MOST_SHEETS {
         return Err(Error::Argument {
@@ -113,18 +118,18 @@ pub(super) fn figures(file: &Path, report: &Report) -> Result<Vec<Figure>, Error
             expected: "100 drops at most: choose a part with --start and --end",
         });
     }
-    let sounds = hear(file, report).map_err(|e| e.in_file(file))?;
+    let sounds = hear(file, track, report).map_err(|e| e.in_file(file))?;
     Ok(sheets(report, &sounds))
 }
 
 /// Reads the recording again, for what its pictures need.
-fn hear(file: &Path, report: &Report) -> Result<Vec<Sound>, Error> {
+fn hear(file: &Path, track: Track, report: &Report) -> Result<Vec<Sound>, Error> {
     let mut sounds = Sound::of(report);
     let numbers = || sounds.iter().map(|s| s.channel - 1);
     let channels: Range<usize> =
         numbers().min().unwrap_or(0)..numbers().max().map_or(0, |last| last + 1);
     let end_s = sounds.iter().map(Sound::end_s).fold(0.0, f64::max);
-    let mut stream = Stream::open_file(file)?;
+    let mut stream = Stream::open_file_track(file, track)?;
     let rate = f64::from(stream.sample_rate_hz()) * report.settings.time_scale;
     let end = crate::units::samples_in(end_s, rate);
     let mut blocks = vec![Vec::new(); channels.len()];

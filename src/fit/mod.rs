@@ -60,6 +60,17 @@ impl Estimate {
         }
     }
 
+    /// What cannot be below zero, from its relative standard error.
+    #[must_use]
+    pub fn with_relative_std(value: f64, relative_std: f64) -> Self {
+        let std = value * relative_std;
+        Self {
+            value,
+            std_error: Some(std),
+            interval95: Some([(value - NORMAL95 * std).max(0.0), value + NORMAL95 * std]),
+        }
+    }
+
     /// A restitution from its logarithm and that one's standard error, which rests on this many degrees of freedom.
     ///
     /// # Formula

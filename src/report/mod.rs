@@ -35,6 +35,7 @@ pub use impact::{Bounce, Impact};
 pub use irregular::{Irregular, Kind as IrregularKind};
 pub use model::{Given, Model, Parameters};
 pub(crate) use numbers::{counted, decimals, listed, short, short_decimals};
+pub(crate) use prediction::HIGHEST;
 pub use prediction::{Prediction, Reach, Rebounds};
 pub use rebound::Rebound;
 pub use rejected::{RejectReason, Rejected};

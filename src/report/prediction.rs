@@ -6,6 +6,9 @@ use super::numbers::listed_words;
 use super::rebound::Unit;
 use crate::fit::Estimate;
 
+/// A fall is no higher than this many times the height that a bounce shall reach.
+pub(crate) const HIGHEST: f64 = 1e4;
+
 /// What the law that a drop was fitted by says of other drops of its ball. Errors are those of one drop more, not of a mean.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
@@ -34,7 +37,7 @@ pub struct Reach {
     pub bounce: usize,
     /// Height after it in metres.
     pub height_m: f64,
-    /// Height of release in metres; null where none is enough, as the air holds the ball back.
+    /// Height of release in metres; null where not even 10,000 times the height is enough, as in air that holds the ball back.
     pub drop_height_m: Option<Estimate>,
 }
 
@@ -96,7 +99,7 @@ fn of_reach(reach: &Reach) -> String {
             "{goal} it must fall from {}",
             unit.plus_minus(from.value, from.std_error.unwrap_or(0.0))
         ),
-        None => format!("{goal} no height is enough: the air holds it back"),
+        None => format!("{goal} a fall from {HIGHEST} times that is not enough"),
     }
 }
 
@@ -128,7 +131,7 @@ mod tests {
             in_words(&prediction),
             [
                 "from 300 mm it would not come back",
-                "for bounce 3 to reach 500 mm no height is enough: the air holds it back"
+                "for bounce 3 to reach 500 mm a fall from 10000 times that is not enough"
             ]
         );
     }

@@ -39,6 +39,8 @@ words! {
         Torn = "torn",
         /// The recording was repaired before it was listened to.
         Repaired = "repaired",
+        /// The file has several tracks of sound, of which one was listened to.
+        SeveralTracks = "several_tracks",
         /// The recording is compressed with loss.
         Lossy = "lossy",
         /// The impacts are those of labels.

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// What docs/limits.md calls it, a command just beyond it, and what is said.
-const LIMITS: [(&str, &str, &str); 26] = [
+const LIMITS: [(&str, &str, &str); 31] = [
     (
         "sample rate",
         "analyze 159.wav",
@@ -30,6 +30,11 @@ const LIMITS: [(&str, &str, &str); 26] = [
         "`--channel`",
         "analyze drop.wav --channel 2",
         "--channel is 2 of a recording with 1, expected best or the number of a channel, from 1",
+    ),
+    (
+        "`--track`",
+        "analyze drop.wav --track 2",
+        "it has one track of sound, and no number 2",
     ),
     (
         "`--start`, `--end`",
@@ -80,6 +85,26 @@ const LIMITS: [(&str, &str, &str); 26] = [
         "`--label-error`",
         "analyze drop.wav --impacts drop.txt --label-error 0s",
         "label error is 0, expected above 0",
+    ),
+    (
+        "`--predict`, `--reach`",
+        "analyze drop.wav --predict 10001m",
+        "height is 10001, expected 1 µm to 10 km",
+    ),
+    (
+        "`--reach-bounce`",
+        "analyze drop.wav --reach 1m --reach-bounce 11",
+        "11 is not in 1..=10",
+    ),
+    (
+        "listen: `--rate`",
+        "listen - --raw s16le --rate 159",
+        "sample rate is 159, expected 4 times the lowest frequency that is listened to or more: 160 Hz by default",
+    ),
+    (
+        "listen: `--channels`",
+        "listen - --raw s16le --channels 65536",
+        "65536 is not in 1..=65535",
     ),
     (
         "`--jobs`",
@@ -139,7 +164,7 @@ const LIMITS: [(&str, &str, &str); 26] = [
 ];
 
 /// Every option that takes a number, given one below zero.
-const NEGATIVE: [&str; 26] = [
+const NEGATIVE: [&str; 31] = [
     "analyze drop.wav --height -30cm",
     "analyze drop.wav --height-error -1mm",
     "analyze drop.wav --mass -2.5g",
@@ -149,7 +174,12 @@ const NEGATIVE: [&str; 26] = [
     "analyze drop.wav --start -1s",
     "analyze drop.wav --end -1min",
     "analyze drop.wav --channel -1",
+    "analyze drop.wav --track -1",
     "analyze drop.wav --impacts drop.txt --label-error -1ms",
+    "analyze drop.wav --predict -1m",
+    "analyze drop.wav --reach -1m",
+    "listen - --raw s16le --rate -1",
+    "listen - --raw s16le --channels -1",
     "batch drop.wav --jobs -2",
     "batch drop.wav --height -30cm",
     "batch drop.wav --contact-time -1ms",

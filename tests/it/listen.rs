@@ -71,8 +71,15 @@ fn each_drop_has_a_line_and_a_file_that_gives_it_again() {
         let estimate = drop.restitution.as_ref().unwrap().estimate;
         let off = (estimate.value - e).abs();
         assert!(off < 3.0 * estimate.std_error.unwrap(), "{number}: {off}");
+        let frames = u32::try_from(read.channels[0].len()).unwrap();
+        let held_s = f64::from(frames) / f64::from(read.sample_rate_hz);
         let labels = fs::read_to_string(stem.with_extension("txt")).unwrap();
         let first_s: f64 = labels.split('\t').next().unwrap().parse().unwrap();
+        let last = labels.lines().next_back().unwrap();
+        let last_s: f64 = last.split('\t').next().unwrap().parse().unwrap();
+        assert!((first_s - 0.5).abs() < 0.01, "{number}: {first_s}");
+        let after_s = held_s - last_s;
+        assert!((after_s - 0.5).abs() < 0.01, "{number}: {after_s} s");
         assert!(
             (first_s - drop.impacts[0].time_s).abs() < 1e-4,
             "{number}: {first_s}"
@@ -123,6 +130,16 @@ fn a_command_is_listened_to_and_its_failure_is_told() {
     assert_eq!(
         (out.lines().count() > 2, err.as_str(), status),
         (true, "", 0)
+    );
+    // What was repaired is told at the end.
+    let cut = folder.join("cut.m4a");
+    let whole = include_bytes!("../../fixtures/compressed/drop.m4a");
+    fs::write(&cut, &whole[..whole.len() * 2 / 3]).unwrap();
+    let cat = format!("cat '{}'", cut.display());
+    let (_, err, _) = listen(&["--from", &cat], b"");
+    assert!(
+        err.contains(&format!("the command {cat}: the file is cut")),
+        "{err}"
     );
     // The drops that were heard before are told.
     let (out, err, status) = of(&format!("{play}; exit 3"));

@@ -27,6 +27,7 @@ mod licences;
 mod limits;
 mod listen;
 mod louder_before;
+mod man;
 mod paper_figures;
 mod physics_contact;
 mod physics_input;

@@ -122,7 +122,7 @@ test("a broken file is named with the reason, and the next one is read", async (
   await answer(page, /could not be measured/);
   assert.match(await page.textContent("#warnings"), /not a readable recording/iu);
   assert.equal(await page.textContent("#result-file"), "broken.wav");
-  await choose(page, join(FIXTURES, "compressed", "refused-opus.ogg"));
+  await choose(page, join(FIXTURES, "compressed", "refused-six-channels.opus"));
   await page.waitForFunction(() => /Opus/u.test(document.getElementById("warnings").textContent));
   await choose(page, wav);
   await answer(page, /67 bounces/);

@@ -101,7 +101,7 @@ impl Listener {
         }
         let together = sample_rate_hz * real(channels);
         if together > MOST_SAMPLES_PER_S {
-            let expected = "1536000 Hz or less: listen to one with --channel, or resample it";
+            let expected = "1536000 Hz or less: listen to one of them, or resample it";
             let all = "sample rate of all channels together";
             return Err(Error::argument(all, together, expected));
         }

@@ -5,7 +5,7 @@
 //! ISO/IEC 14496-12, 8.6.6). Its first entry that is not empty says from where the stream is presented, in units of the
 //! track (`mdhd`), and empty ones before it how much later that is, in units of the movie (`mvhd`).
 
-use super::index::Head;
+use super::atoms::{Atom, atoms, behind_dates, child, u32_at, u64_at};
 use super::start::{Span, Start};
 
 /// Where each track begins that has an edit list which can be followed.
@@ -16,12 +16,9 @@ impl Edits {
     /// The edit lists in an index; what is broken is left out.
     pub(super) fn of(index: &[u8]) -> Self {
         let movie = child(index, b"mvhd").and_then(behind_dates);
-        let tracks = Atoms(index).filter(|(kind, _)| kind == b"trak");
-        Self(
-            tracks
-                .filter_map(|(_, track)| start(track, movie?))
-                .collect(),
-        )
+        let tracks = atoms(index).filter(|atom| atom.kind == *b"trak");
+        let starts = tracks.filter_map(|Atom { body, .. }| start(body, movie?));
+        Self(starts.collect())
     }
 
     /// Where a track begins; at its first sample if nothing else is known.
@@ -77,54 +74,10 @@ fn beginning(list: &[u8]) -> Option<(u64, u64)> {
 /// The rate of an entry that is presented as it was recorded: one, with 16 binary places.
 const RATE: u32 = 1 << 16;
 
-/// The number behind the two dates of an atom: units per second (`mvhd`, `mdhd`) or that of the track (`tkhd`).
-fn behind_dates(body: &[u8]) -> Option<u32> {
-    match body.first()? {
-        0 => u32_at(body, 12),
-        1 => u32_at(body, 20),
-        _ => None,
-    }
-}
-
-/// Atoms that follow each other, with their kind and body, up to the first that is broken.
-struct Atoms<'b>(&'b [u8]);
-
-impl<'b> Iterator for Atoms<'b> {
-    type Item = ([u8; 4], &'b [u8]);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let head = Head::of(self.0)?;
-        let length = match head.length {
-            Some(length) => usize::try_from(length).ok()?,
-            None => self.0.len(),
-        };
-        let (atom, rest) = self.0.split_at_checked(length)?;
-        self.0 = rest;
-        Some((head.kind, atom.get(head.bytes..)?))
-    }
-}
-
-fn child<'b>(body: &'b [u8], kind: &[u8; 4]) -> Option<&'b [u8]> {
-    let mut of_kind = Atoms(body).filter(|(this, _)| this == kind);
-    of_kind.next().map(|(_, body)| body)
-}
-
-fn u32_at(bytes: &[u8], at: usize) -> Option<u32> {
-    Some(u32::from_be_bytes(*bytes.get(at..)?.first_chunk()?))
-}
-
-fn u64_at(bytes: &[u8], at: usize) -> Option<u64> {
-    Some(u64::from_be_bytes(*bytes.get(at..)?.first_chunk()?))
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::atoms::atom;
     use super::*;
-
-    fn atom(kind: &[u8; 4], body: &[u8]) -> Vec<u8> {
-        let length = u32::try_from(8 + body.len()).unwrap();
-        [&length.to_be_bytes(), &kind[..], body].concat()
-    }
 
     /// An atom with two dates before a number, of either version.
     fn dated(kind: &[u8; 4], version: u8, number: u32) -> Vec<u8> {

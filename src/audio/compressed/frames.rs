@@ -11,13 +11,12 @@ use symphonia::core::codecs::audio::well_known::{CODEC_ID_AAC, CODEC_ID_MP3};
 use symphonia::core::packet::PacketBuilder;
 use symphonia::core::units::{Duration, Timestamp};
 
-use super::codec::Decoder;
+use super::codec::{Decoder, other_aac};
 use super::header::{self, Format, HEADER_BYTES, Header, MOST_BYTES, Parse};
 use super::source::Source;
 use super::start::{Span, Start};
 use super::{Next, Opened, Packets};
 use crate::Error;
-use crate::audio::content::Refused;
 use crate::audio::unreadable;
 use crate::audio::wav::fill;
 
@@ -96,10 +95,7 @@ pub(super) fn adts(source: Source<'_>) -> Result<Opened<'_>, Error> {
     let channels = match (frames.format.version, frames.format.channels) {
         (LC, 1) => CHANNEL_LAYOUT_MONO,
         (LC, 2) => CHANNEL_LAYOUT_STEREO,
-        _ => {
-            let what = "AAC of another kind than LC with 1 or 2 channels";
-            return Err(unreadable(Refused::new(what, "aac").sentence()));
-        }
+        _ => return Err(other_aac("aac")),
     };
     let mut params = AudioCodecParameters::new();
     let params = params

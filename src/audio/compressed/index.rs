@@ -5,8 +5,11 @@
 
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 
+use symphonia::core::io::MediaSource;
+
+use super::atoms::Head;
 use super::overlaid::Overlaid;
-use super::pictures;
+use super::pictures::{self, PASSED_OVER};
 use super::source::Source;
 
 /// Bytes of an index at most, and of what a pipe has before it: that of an hour of video takes 2 MiB.
@@ -16,38 +19,6 @@ pub(super) const MOST_ATOMS: usize = 1 << 20;
 /// Bytes of the header of an atom that has a long length.
 pub(super) const HEAD_BYTES: u64 = 16;
 
-/// The header of an atom.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Head {
-    pub kind: [u8; 4],
-    /// Bytes of this header.
-    pub bytes: usize,
-    /// Bytes of the atom with its header; none if it goes to the end.
-    pub length: Option<u64>,
-}
-
-impl Head {
-    /// The header that bytes begin with; none if they are too few or contradict themselves.
-    pub(super) fn of(bytes: &[u8]) -> Option<Self> {
-        let short = u32::from_be_bytes(*bytes.first_chunk()?);
-        let kind = *bytes.get(4..)?.first_chunk()?;
-        let (bytes, length) = match short {
-            0 => (8, None),
-            1 => {
-                let long = u64::from_be_bytes(*bytes.get(8..)?.first_chunk()?);
-                (16, Some(long))
-            }
-            short => (8, Some(u64::from(short))),
-        };
-        let is_whole = length.is_none_or(|length| length >= bytes as u64);
-        is_whole.then_some(Self {
-            kind,
-            bytes,
-            length,
-        })
-    }
-}
-
 /// What stands in the index, empty if there is none within reach, and the source at its beginning again.
 ///
 /// # Errors
@@ -55,24 +26,25 @@ impl Head {
 pub(super) fn index(source: Source<'_>) -> io::Result<(Vec<u8>, Source<'_>)> {
     match source {
         Source::Seekable(mut inner) => {
-            let (mut index, from) = sought(&mut inner)?;
+            let (index, from) = sought(&mut inner)?;
             inner.seek(SeekFrom::Start(0))?;
-            let source = if pictures::hide(&mut index) {
-                Source::Seekable(Box::new(Overlaid::new(inner, from, index.clone())))
+            let kinds = pictures::kinds(&index).into_iter();
+            let places: Vec<u64> = kinds.map(|at| from.saturating_add(at as u64)).collect();
+            let inner: Box<dyn MediaSource> = if places.is_empty() {
+                inner
             } else {
-                Source::Seekable(inner)
+                Box::new(Overlaid::new(inner, places, PASSED_OVER))
             };
-            Ok((index, source))
+            Ok((index, Source::Seekable(inner)))
         }
         Source::Pipe(mut inner) => {
             let (from, mut read) = piped(&mut inner)?;
-            let index = &mut read[from..];
-            pictures::hide(index);
-            let index = index.to_vec();
-            Ok((
-                index,
-                Source::Pipe(Box::new(Cursor::new(read).chain(inner))),
-            ))
+            let index = read[from..].to_vec();
+            for at in pictures::kinds(&index) {
+                read[from + at..from + at + 4].copy_from_slice(PASSED_OVER);
+            }
+            let source = Source::Pipe(Box::new(Cursor::new(read).chain(inner)));
+            Ok((index, source))
         }
     }
 }
@@ -138,12 +110,8 @@ fn append(source: &mut impl Read, count: u64, to: &mut Vec<u8>) -> io::Result<()
 
 #[cfg(test)]
 mod tests {
+    use super::super::atoms::atom;
     use super::*;
-
-    fn atom(kind: &str, body: &[u8]) -> Vec<u8> {
-        let length = u32::try_from(8 + body.len()).unwrap();
-        [&length.to_be_bytes(), kind.as_bytes(), body].concat()
-    }
 
     /// What is found in bytes, as a file and as a pipe; all of them have to come again.
     fn found(bytes: &[u8]) -> [Vec<u8>; 2] {
@@ -159,9 +127,9 @@ mod tests {
 
     #[test]
     fn an_index_before_the_sound_is_found_in_a_file_and_a_pipe() {
-        let sound = atom("mdat", b"sound");
-        let before = [atom("ftyp", b"M4A "), atom("free", b"")].concat();
-        let short = [before.clone(), atom("moov", b"index"), sound.clone()].concat();
+        let sound = atom(b"mdat", b"sound");
+        let before = [atom(b"ftyp", b"M4A "), atom(b"free", b"")].concat();
+        let short = [before.clone(), atom(b"moov", b"index"), sound.clone()].concat();
         assert_eq!(found(&short), [b"index", b"index"]);
         let long = [&b"\0\0\0\x01moov\0\0\0\0\0\0\0\x15index"[..], &sound].concat();
         assert_eq!(found(&[before, long].concat()), [b"index", b"index"]);
@@ -169,7 +137,7 @@ mod tests {
 
     #[test]
     fn an_index_behind_the_sound_is_found_in_a_file_only() {
-        let bytes = [atom("mdat", b"sound"), atom("moov", b"index")].concat();
+        let bytes = [atom(b"mdat", b"sound"), atom(b"moov", b"index")].concat();
         assert_eq!(found(&bytes), [&b"index"[..], b""]);
     }
 

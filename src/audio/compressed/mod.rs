@@ -1,13 +1,14 @@
-//! Recordings that are no WAV: MP4 (AAC, ALAC, PCM), ADTS (AAC), MP3, FLAC, Ogg Vorbis, AIFF and CAF, in blocks.
+//! Recordings that are no WAV: MP4, Matroska and `WebM`, ADTS (AAC), MP3, FLAC, Ogg (Vorbis, Opus), AIFF and CAF, in blocks.
 //!
-//! The crate symphonia has the decoders, and takes MP4, FLAC, AIFF and CAF apart. Frames of MP3 and ADTS ([`frames`]) and pages of Ogg
+//! The crate symphonia has the decoders but that of Opus ([`opus`]), and takes MP4, Matroska, FLAC, AIFF and CAF apart. Frames of MP3 and ADTS ([`frames`]) and pages of Ogg
 //! ([`pages`]) are found here: where some are damaged, it has to be known how much sound they held, so that what comes
 //! later keeps its time. What is lost becomes silence ([`stream`]).
 //!
 //! Encoders put a little before the first sample (of MP3 576 samples and more, of AAC 1024 or 2112). Where an MP3, an Ogg or
 //! the edit list of an MP4 ([`edits`]) says how much, it is left out; frames of AAC by themselves keep it, and all their times
-//! are later by so much. What was added at the end stays: no header's word shortens a recording.
+//! are later by so much. What was added at the end stays, but for what the sum of a page of Ogg vouches for.
 
+mod atoms;
 mod codec;
 mod edits;
 mod frames;
@@ -16,7 +17,9 @@ mod header;
 mod index;
 mod indexed;
 mod losses;
+mod names;
 mod opening;
+mod opus;
 mod overlaid;
 mod pages;
 mod pictures;
@@ -52,8 +55,8 @@ enum Next {
     Lost,
     /// What came since the last mark ends at so many frames from some origin.
     Mark(u64),
-    /// Another stream follows, with a decoder of its own.
-    Anew(Box<Decoder>),
+    /// Another stream follows, with a decoder and a beginning of its own.
+    Anew { decoder: Box<Decoder>, start: Start },
     /// The end.
     End,
     /// The end, too early.

@@ -5,17 +5,23 @@ use std::io::Read;
 use super::source::Source;
 use super::{Opened, frames, indexed, pages};
 use crate::Error;
+use crate::audio::Track;
 use crate::audio::content::{Content, HEAD_BYTES};
 use crate::audio::wav::fill;
 
 /// Goes to what is in a container, past the tags before it.
-pub(super) fn open(content: Content, source: Source<'_>) -> Result<Opened<'_>, Error> {
+pub(super) fn open(
+    content: Content,
+    source: Source<'_>,
+    wanted: Track,
+) -> Result<Opened<'_>, Error> {
     match content {
-        Content::Mp4 => indexed::mp4(source),
+        Content::Mp4 => indexed::mp4(source, wanted),
+        Content::Matroska => indexed::matroska(source, wanted),
         Content::Flac => indexed::flac(source),
         Content::Aiff => indexed::aiff(source),
         Content::Caf => indexed::caf(source),
-        Content::OggVorbis => pages::vorbis(source),
+        Content::Ogg => pages::ogg(source),
         Content::Adts => frames::adts(source),
         Content::Tagged => behind_tag(source),
         // A WAV or what is refused does not come here.
@@ -44,7 +50,7 @@ fn behind_tag(mut source: Source<'_>) -> Result<Opened<'_>, Error> {
         source = Source::Pipe(Box::new(std::io::Cursor::new(next).chain(source)));
         match content {
             Content::Tagged => {}
-            Content::Flac | Content::Adts => return open(content, source),
+            Content::Flac | Content::Adts => return open(content, source, Track::WithSound),
             // Padding may follow the tag, which the search for the first frame passes.
             _ => return frames::mp3(source),
         }

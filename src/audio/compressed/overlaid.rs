@@ -4,20 +4,24 @@ use std::io::{self, Read, Seek, SeekFrom};
 
 use symphonia::core::io::MediaSource;
 
-/// A source with other bytes in place of some of its own.
+/// A source in which four bytes are read as others, in a few places.
 pub(super) struct Overlaid<'s> {
     inner: Box<dyn MediaSource + 's>,
-    from: u64,
-    bytes: Vec<u8>,
+    places: Vec<u64>,
+    bytes: &'static [u8; 4],
     at: u64,
 }
 
 impl<'s> Overlaid<'s> {
-    /// The bytes stand in place of as many from a position on; the source stands at its beginning.
-    pub(super) fn new(inner: Box<dyn MediaSource + 's>, from: u64, bytes: Vec<u8>) -> Self {
+    /// The bytes stand in place of those from each of the places on; the source stands at its beginning.
+    pub(super) fn new(
+        inner: Box<dyn MediaSource + 's>,
+        places: Vec<u64>,
+        bytes: &'static [u8; 4],
+    ) -> Self {
         Self {
             inner,
-            from,
+            places,
             bytes,
             at: 0,
         }
@@ -27,11 +31,13 @@ impl<'s> Overlaid<'s> {
 impl Read for Overlaid<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let got = self.inner.read(buffer)?;
-        for (k, byte) in buffer[..got].iter_mut().enumerate() {
-            let within = (self.at + k as u64).checked_sub(self.from);
-            let within = within.and_then(|k| usize::try_from(k).ok());
-            if let Some(other) = within.and_then(|k| self.bytes.get(k)) {
-                *byte = *other;
+        for place in &self.places {
+            for (at, other) in (*place..).zip(self.bytes) {
+                let within = at.checked_sub(self.at);
+                let within = within.and_then(|k| usize::try_from(k).ok());
+                if let Some(byte) = within.and_then(|k| buffer[..got].get_mut(k)) {
+                    *byte = *other;
+                }
             }
         }
         self.at += got as u64;
@@ -63,12 +69,13 @@ mod tests {
 
     #[test]
     fn other_bytes_are_read_where_they_are_laid_however_it_is_read() {
-        let mut laid = Overlaid::new(Box::new(Cursor::new(b"0123456789")), 3, b"abc".to_vec());
+        let inner = Box::new(Cursor::new(b"0123456789ABCDEF"));
+        let mut laid = Overlaid::new(inner, vec![2, 9], b"free");
         for (from, count, expected) in [
-            (0, 10, &b"012abc6789"[..]),
-            (4, 2, b"bc"),
-            (5, 3, b"c67"),
-            (9, 4, b"9"),
+            (0, 16, &b"01free678freeDEF"[..]),
+            (4, 2, b"ee"),
+            (5, 5, b"e678f"),
+            (12, 9, b"eDEF"),
         ] {
             laid.seek(SeekFrom::Start(from)).unwrap();
             let mut read = Vec::new();

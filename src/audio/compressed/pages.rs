@@ -1,4 +1,4 @@
-//! Pages of an Ogg (RFC 3533), and the packets of Vorbis in them.
+//! Pages of an Ogg (RFC 3533), and the packets of Vorbis or Opus in them.
 //!
 //! A page carries a sum by which damage is known, and says where its sound ends: so it is known how much a lost page
 //! held, and its place is exact.
@@ -7,12 +7,13 @@ use std::collections::VecDeque;
 
 use symphonia::core::checksum::Crc32;
 use symphonia::core::codecs::audio::AudioCodecParameters;
-use symphonia::core::codecs::audio::well_known::CODEC_ID_VORBIS;
+use symphonia::core::codecs::audio::well_known::{CODEC_ID_OPUS, CODEC_ID_VORBIS};
 use symphonia::core::io::Monitor;
 use symphonia::core::packet::Packet;
 use symphonia::core::units::{Duration, Timestamp};
 
 use super::codec::Decoder;
+use super::opus;
 use super::source::Source;
 use super::start::Start;
 use super::{Next, Opened, Packets};
@@ -56,8 +57,8 @@ struct Pages<'s> {
     ended: bool,
 }
 
-/// Opens an Ogg whose first stream is Vorbis.
-pub(super) fn vorbis(source: Source<'_>) -> Result<Opened<'_>, Error> {
+/// Opens an Ogg whose first stream is Vorbis or Opus.
+pub(super) fn ogg(source: Source<'_>) -> Result<Opened<'_>, Error> {
     let mut pages = Pages {
         source,
         bytes: VecDeque::new(),
@@ -68,29 +69,47 @@ pub(super) fn vorbis(source: Source<'_>) -> Result<Opened<'_>, Error> {
         ended: false,
     };
     let first = pages.page()?.ok_or_else(broken)?;
-    let decoder = pages.begin(first)?;
+    let (decoder, start) = pages.begin(first)?;
     Ok(Opened {
         packets: Box::new(pages),
         decoder,
-        start: Start::default(),
+        start,
         note: None,
         units_per_s: None,
     })
 }
 
 impl Pages<'_> {
-    /// Goes to the sound of a stream that begins with this page. Its decoder needs the first and the third packet; the second
-    /// is a comment.
-    fn begin(&mut self, first: Page) -> Result<Decoder, Error> {
+    /// Goes to the sound of a stream that begins with this page, past its headers.
+    fn begin(&mut self, first: Page) -> Result<(Decoder, Start), Error> {
         self.serial = first.serial;
         self.due = first.number;
         self.ended = false;
         self.part.clear();
         self.unpack(first);
-        let mut packets = Vec::new();
-        while packets.len() < 3 {
+        let head = self.header()?;
+        // The second packet is a comment.
+        self.header()?;
+        let mut params = AudioCodecParameters::new();
+        if head.starts_with(opus::MAGIC) {
+            let hidden = opus::hidden(&head).ok_or_else(broken)?;
+            params.for_codec(CODEC_ID_OPUS).with_extra_data(head);
+            let later = Start::default().later;
+            return Ok((Decoder::new(&params, "opus")?, Start { later, hidden }));
+        }
+        let setup = self.header()?;
+        let both = [head, setup].concat();
+        params
+            .for_codec(CODEC_ID_VORBIS)
+            .with_extra_data(both.into());
+        Ok((Decoder::new(&params, "ogg")?, Start::default()))
+    }
+
+    /// The next packet before the sound.
+    fn header(&mut self) -> Result<Box<[u8]>, Error> {
+        loop {
             match self.ready.pop_front() {
-                Some(Next::Packet { packet, .. }) => packets.push(packet.data),
+                Some(Next::Packet { packet, .. }) => return Ok(packet.data),
                 Some(Next::Mark(_)) => {}
                 Some(_) => return Err(broken()),
                 None => match self.page()? {
@@ -101,11 +120,6 @@ impl Pages<'_> {
                 },
             }
         }
-        let mut params = AudioCodecParameters::new();
-        params
-            .for_codec(CODEC_ID_VORBIS)
-            .with_extra_data([&*packets[0], &*packets[2]].concat().into());
-        Decoder::new(&params, "ogg")
     }
 
     /// Has so many bytes to look at; fewer at the end.
@@ -172,7 +186,7 @@ impl Pages<'_> {
 }
 
 fn broken() -> Error {
-    unreadable("the header of its Vorbis is damaged")
+    unreadable("the header of its Vorbis or Opus is damaged")
 }
 
 /// A page at the beginning of these bytes, and its length.
@@ -217,7 +231,10 @@ impl Packets for Pages<'_> {
                 // Another stream after the end of this one goes on with it; beside it, it is not listened to.
                 Some(page) if page.begins && self.ended => {
                     return Ok(match self.begin(page) {
-                        Ok(decoder) => Next::Anew(Box::new(decoder)),
+                        Ok((decoder, start)) => Next::Anew {
+                            decoder: Box::new(decoder),
+                            start,
+                        },
                         Err(_) => Next::Changed,
                     });
                 }

@@ -2,7 +2,8 @@
 
 use std::io::{self, Read, Seek, SeekFrom};
 
-use super::index::{HEAD_BYTES, Head, MOST_ATOMS};
+use super::atoms::Head;
+use super::index::{HEAD_BYTES, MOST_ATOMS};
 use symphonia::core::io::{MediaSource, MediaSourceStream, ReadOnlySource};
 
 /// Bytes that can only be read forwards, or anywhere.

@@ -15,7 +15,7 @@ use super::{Next, Opened, Packets};
 use crate::Error;
 use crate::audio::content::Content;
 use crate::audio::wav::zero_what_is_not_finite;
-use crate::audio::{Ending, unreadable};
+use crate::audio::{Ending, Track, unreadable};
 
 /// Frames of silence that are handed over at a time.
 const BLOCK: u64 = 4_096;
@@ -75,9 +75,13 @@ impl<'s> Stream<'s> {
     ///
     /// # Errors
     /// [`Error::Recording`] if there is none, or it is of a kind that is not read; [`Error::Io`] if reading fails.
-    pub(in crate::audio) fn open(content: Content, source: Source<'s>) -> Result<Self, Error> {
+    pub(in crate::audio) fn open(
+        content: Content,
+        source: Source<'s>,
+        wanted: Track,
+    ) -> Result<Self, Error> {
         let broken = || unreadable("its header is damaged beyond what can be read");
-        let opened = guarded(|| open(content, source)).ok_or_else(broken)?;
+        let opened = guarded(|| open(content, source, wanted)).ok_or_else(broken)?;
         let Opened {
             packets,
             decoder,
@@ -88,7 +92,7 @@ impl<'s> Stream<'s> {
         let mut stream = Self {
             packets,
             decoder,
-            marks: content == Content::OggVorbis,
+            marks: content == Content::Ogg,
             is_estimate: matches!(content, Content::Mp3 | Content::Adts | Content::Tagged),
             sample_rate_hz: 0,
             channels: 0,
@@ -176,7 +180,7 @@ impl<'s> Stream<'s> {
         match guarded(|| self.packets.next()).unwrap_or(Ok(Next::Cut))? {
             Next::Packet { packet, lost } => {
                 if lost > 0 {
-                    self.decoder.inner.reset();
+                    self.decoder.reset();
                     self.lose(lost);
                 }
                 let gap = std::mem::take(&mut self.gap);
@@ -187,10 +191,11 @@ impl<'s> Stream<'s> {
                     self.decode(&packet);
                 }
             }
-            Next::Lost => self.decoder.inner.reset(),
+            Next::Lost => self.decoder.reset(),
             Next::Mark(end) => self.place(end),
-            Next::Anew(decoder) => {
+            Next::Anew { decoder, start } => {
                 self.decoder = *decoder;
+                self.hidden = start.hidden.frames(self.sample_rate_hz);
                 self.mark = None;
             }
             end => self.end = Some(end),
@@ -200,11 +205,11 @@ impl<'s> Stream<'s> {
 
     /// Decodes a packet; what cannot be is silence for as long as it would have been.
     fn decode(&mut self, packet: &Packet) {
-        let Some(decoded) = guarded(|| self.decoder.inner.decode(packet)) else {
+        let Some(decoded) = guarded(|| self.decoder.decode(packet)) else {
             self.end = Some(Next::Cut);
             return;
         };
-        let Ok(decoded) = decoded else {
+        let Some(decoded) = decoded else {
             if self.marks {
                 return;
             }
@@ -213,12 +218,11 @@ impl<'s> Stream<'s> {
             } else {
                 packet.dur.get()
             };
+            self.fall_behind(packet);
             return self.lose(lasts.min(MOST_PER_PACKET));
         };
-        let frames = decoded.frames();
-        let (rate, channels) = (decoded.spec().rate(), decoded.num_planes());
-        let mut planes: Vec<Vec<f32>> = Vec::new();
-        decoded.copy_to_vecs_planar(&mut planes);
+        let (rate, mut planes) = (decoded.sample_rate_hz, decoded.planes);
+        let (channels, frames) = (planes.len(), planes.first().map_or(0, Vec::len));
         if self.channels == 0 {
             (self.sample_rate_hz, self.channels) = (rate, channels);
             self.ready = vec![Vec::new(); channels];
@@ -228,16 +232,7 @@ impl<'s> Stream<'s> {
             return;
         }
         self.usual = frames as u64;
-        if self.units_per_s == Some(rate) {
-            // Time stamps that jitter are no gap: what counts is how far the sound has fallen behind them.
-            let dur = i64::try_from(packet.dur.get()).unwrap_or(i64::MAX);
-            let usual = self.usual.cast_signed();
-            let behind = self.behind.saturating_add(dur.saturating_sub(usual));
-            self.behind = behind.max(-usual);
-            if self.behind > usual / 2 {
-                self.gap = std::mem::take(&mut self.behind).unsigned_abs();
-            }
-        }
+        self.fall_behind(packet);
         let shown = self.shown(self.usual);
         let hidden = usize::try_from(self.usual - shown).unwrap_or(frames);
         for (ready, plane) in self.ready.iter_mut().zip(&mut planes) {
@@ -248,6 +243,25 @@ impl<'s> Stream<'s> {
         self.frames += shown;
         if self.marks {
             self.unmarked += shown;
+        }
+    }
+
+    /// Counts how far the sound, of which this packet has as much as is usual, has fallen behind the time stamps: these may
+    /// jitter, which is no gap.
+    fn fall_behind(&mut self, packet: &Packet) {
+        // Opus counts in an MP4 by the rate that it was made from, a part of its own.
+        let rate = self.sample_rate_hz;
+        let units = self.units_per_s.filter(|units| rate.is_multiple_of(*units));
+        let Some(units) = units else {
+            return;
+        };
+        let dur = packet.dur.get().saturating_mul(u64::from(rate / units));
+        let dur = i64::try_from(dur).unwrap_or(i64::MAX);
+        let usual = self.usual.cast_signed();
+        let behind = self.behind.saturating_add(dur.saturating_sub(usual));
+        self.behind = behind.max(-usual);
+        if self.behind > usual / 2 {
+            self.gap = std::mem::take(&mut self.behind).unsigned_abs();
         }
     }
 
@@ -310,8 +324,19 @@ impl<'s> Stream<'s> {
         if missing > 0 {
             self.lose(missing);
         }
+        self.cut(due.map_or(0, |due| due.saturating_sub(end)));
         self.mark = Some(end);
         self.unmarked = 0;
+    }
+
+    /// Takes away what an encoder put at the end of its last page; another stream may follow, which keeps its time.
+    fn cut(&mut self, frames: u64) {
+        let there = self.ready.first().map_or(0, Vec::len);
+        let cut = usize::try_from(frames.min(self.unmarked)).map_or(there, |cut| cut.min(there));
+        for channel in &mut self.ready {
+            channel.truncate(there - cut);
+        }
+        self.frames -= cut as u64;
     }
 
     /// What is known after the last block.
@@ -336,10 +361,10 @@ impl<'s> Stream<'s> {
             )
         });
         warnings.extend(ended);
-        warnings.extend(self.note);
         Ending {
             duration_s: at(self.frames),
             warnings,
+            tracks: self.note,
         }
     }
 }

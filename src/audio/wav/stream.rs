@@ -106,6 +106,7 @@ impl<R: Read> Stream<R> {
         Ok(Ending {
             duration_s: frames / f64::from(self.container.sample_rate_hz),
             warnings,
+            tracks: None,
         })
     }
 

@@ -94,11 +94,11 @@ impl Job<'_> {
                 &named,
             )?
         } else {
-            listen_to_file(path, &request)?
+            listen_to_file(path, listening.track(), &request)?
         };
         match &self.plots {
             Some(plots) if list => plots.draw_times(path, &report)?,
-            Some(plots) => plots.draw(path, &report)?,
+            Some(plots) => plots.draw(path, listening.track(), &report)?,
             None => {}
         }
         Ok(Done {

@@ -9,6 +9,7 @@ use clap::ValueEnum;
 
 use super::inputs::Input;
 use crate::Error;
+use crate::audio::Track;
 use crate::cli::picture::{Target, draw_all, draw_sheets};
 use crate::picture::batch::{BatchRow, Order, Ranged, sheet};
 use crate::picture::sheet::sheets_of_times;
@@ -75,10 +76,15 @@ impl Plots {
         self.folder.join(file_name(recording))
     }
 
-    /// Draws the sheets of a recording.
-    pub(super) fn draw(&self, recording: &Path, report: &Report) -> Result<(), Error> {
+    /// Draws the sheets of a track of a recording.
+    pub(super) fn draw(
+        &self,
+        recording: &Path,
+        track: Track,
+        report: &Report,
+    ) -> Result<(), Error> {
         let target = Target::new(&self.sheet(recording))?;
-        draw_sheets(&target, recording, report)
+        draw_sheets(&target, recording, track, report)
     }
 
     /// Draws the sheets of times that were typed in.

@@ -13,8 +13,10 @@ use clap::{Args, ValueEnum};
 
 use super::Outcome;
 use super::known::Known;
+use super::listen::channel;
 use crate::Error;
 use crate::analysis::Live;
+use crate::recording::Channel;
 use said::Said;
 use samples::{Coding, Samples};
 use saved::Saved;
@@ -43,13 +45,22 @@ pub(super) struct Arguments {
     #[arg(long, value_enum, value_name = "FORM")]
     raw: Option<Coding>,
     /// Samples per second of each channel, with --raw
-    #[arg(long, value_name = "HZ", default_value_t = 48_000, requires = "raw")]
+    #[arg(
+        long,
+        value_name = "HZ",
+        default_value_t = 48_000,
+        requires = "raw",
+        allow_hyphen_values = true
+    )]
     rate: u32,
     /// Number of channels, with --raw
-    #[arg(long, value_name = "N", default_value_t = 1, requires = "raw", value_parser = clap::value_parser!(u16).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "raw", value_parser = clap::value_parser!(u16).range(1..), allow_hyphen_values = true)]
     channels: u16,
     #[command(flatten)]
     known: Known,
+    /// Which channel to listen to: best (the one in which impacts stand out most) or its number from 1
+    #[arg(long, value_parser = channel, default_value = "best", value_name = "best|N", allow_hyphen_values = true)]
+    channel: Channel,
     /// Form of the lines
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -67,36 +78,49 @@ enum Format {
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
-    let settings = arguments.known.settings();
-    settings.check()?;
+    arguments.known.settings().check()?;
     let stop = stopped_by_ctrl_c();
-    let mut samples = Samples::open(arguments)?;
-    let mut live = Live::new(samples.channels(), samples.rate_hz(), &settings)?;
-    let mut said = Said::new(arguments.format);
-    let mut saved = arguments.save.as_deref().map(Saved::into).transpose()?;
+    listen_to(Samples::open(arguments)?, arguments, &stop)
+}
+
+/// Listens to samples until they end, fail, or are stopped; what was heard until then is told in each case.
+fn listen_to(
+    mut samples: Samples,
+    arguments: &Arguments,
+    stop: &AtomicBool,
+) -> Result<Outcome, Error> {
+    let heard = arguments.channel.of(samples.channels())?;
+    let settings = arguments.known.settings();
+    let mut live = Live::new(heard.len(), samples.rate_hz(), &settings)?;
+    let mut said = Said::new(arguments.format, heard.start);
+    let saved = arguments.save.as_deref();
+    let mut saved = saved
+        .map(|folder| Saved::into(folder, samples.rate_hz()))
+        .transpose()?;
     let mut block = vec![Vec::new(); samples.channels()];
+    let mut failed = None;
     loop {
         block.iter_mut().for_each(Vec::clear);
-        let goes_on = samples.append(&mut block)? && !stop.load(Ordering::Relaxed);
-        for told in live.hear(&block)? {
-            if let Some(saved) = &mut saved {
-                saved.keep(&told, &live, samples.rate_hz())?;
-            }
+        let read = samples.append(&mut block);
+        let block = &block[heard.clone()];
+        let mut told = live.hear(block)?;
+        let goes_on = read.as_ref().is_ok_and(|more| *more) && !stop.load(Ordering::Relaxed);
+        failed = failed.or(read.err());
+        if !goes_on {
+            told.extend(live.finish()?);
+        }
+        if let Some(saved) = &mut saved {
+            saved.keep(&told, &live, !goes_on)?;
+        }
+        for told in told {
             said.tell(told)?;
         }
-        said.level(&block, live.hears());
         if !goes_on {
             break;
         }
+        said.level(block, live.hears());
     }
-    for told in live.finish()? {
-        if let Some(saved) = &mut saved {
-            saved.keep(&told, &live, samples.rate_hz())?;
-        }
-        said.tell(told)?;
-    }
-    samples.end(stop.load(Ordering::Relaxed))?;
-    Ok(said.outcome())
+    Ok(said.outcome(samples.end(failed, stop.load(Ordering::Relaxed))))
 }
 
 /// What Ctrl-C sets, in place of ending the program: the drops heard so far are told.
@@ -112,4 +136,66 @@ fn stopped_by_ctrl_c() -> Arc<AtomicBool> {
     })
     .ok();
     stop
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{self, Cursor, Read};
+
+    use clap::Parser;
+
+    use super::*;
+    use crate::synth::{presets::preset, render};
+    use crate::units::samples_in;
+
+    /// A command line of this command alone.
+    #[derive(Parser)]
+    struct Line {
+        #[command(flatten)]
+        arguments: Arguments,
+    }
+
+    /// A device that is pulled out.
+    struct Gone;
+
+    impl Read for Gone {
+        fn read(&mut self, _: &mut [u8]) -> io::Result<usize> {
+            Err(io::Error::other("device is gone"))
+        }
+    }
+
+    #[test]
+    fn a_device_that_is_pulled_out_loses_no_drop() {
+        let made = render(&preset("pingpong").unwrap(), 1).unwrap();
+        let last_s = made.truth.drops[0].impacts_s.last().unwrap();
+        let rate = f64::from(made.truth.sample_rate_hz);
+        // Silence in the other channel, and the end soon after the last impact: before the drop would be told.
+        let heard = &made.samples[..samples_in(last_s + 0.1, rate)];
+        let frames = heard.iter().flat_map(|x| [0.0_f32, *x]);
+        let bytes: Vec<u8> = frames.flat_map(f32::to_le_bytes).collect();
+        let rate = made.truth.sample_rate_hz.to_string();
+        let words = [
+            "-",
+            "-",
+            "--raw",
+            "f32le",
+            "--channels",
+            "2",
+            "--channel",
+            "2",
+            "--rate",
+            &rate,
+        ];
+        let arguments = Line::parse_from(words).arguments;
+        let source = Box::new(Cursor::new(bytes).chain(Gone));
+        let samples = Samples::of(source, &arguments).unwrap();
+        let outcome = listen_to(samples, &arguments, &AtomicBool::new(false)).unwrap();
+        assert_eq!(
+            (outcome.note.as_str(), outcome.status),
+            (
+                "bounce-audio: 1 drop was heard; standard input: device is gone\n",
+                2
+            )
+        );
+    }
 }

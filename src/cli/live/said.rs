@@ -18,11 +18,14 @@ pub(super) struct Said {
     /// The drops as they were told last.
     drops: Vec<Drop>,
     shows_level: bool,
+    /// The number of the first channel that is listened to, from 0.
+    first_channel: usize,
 }
 
 impl Said {
-    pub(super) fn new(format: Format) -> Self {
+    pub(super) fn new(format: Format, first_channel: usize) -> Self {
         Self {
+            first_channel,
             format,
             drops: Vec::new(),
             shows_level: io::stderr().is_terminal(),
@@ -33,7 +36,8 @@ impl Said {
     ///
     /// # Errors
     /// [`Error::Io`] if it cannot be written.
-    pub(super) fn tell(&mut self, told: Told) -> Result<(), Error> {
+    pub(super) fn tell(&mut self, mut told: Told) -> Result<(), Error> {
+        told.drop.channel += self.first_channel;
         self.clear();
         let again = told.number <= self.drops.len();
         let line = match self.format {
@@ -87,26 +91,32 @@ impl Said {
         }
     }
 
-    /// What is said at the end.
-    pub(super) fn outcome(self) -> Outcome {
+    /// What is said at the end: of all drops, and of the samples.
+    pub(super) fn outcome(self, ended: Result<Vec<String>, Error>) -> Outcome {
         self.clear();
         let together = match self.format {
             Format::Text => together_of(&self.drops),
             Format::Ndjson => String::new(),
         };
-        let heard = !self.drops.is_empty();
+        let (said, status) = match (ended, self.drops.len()) {
+            (Err(error), 0) => (vec![error.to_string()], 2),
+            (Err(error), 1) => (vec![format!("1 drop was heard; {error}")], 2),
+            (Err(error), count) => (vec![format!("{count} drops were heard; {error}")], 2),
+            (Ok(mut said), 0) => {
+                said.push("no drop was heard".to_owned());
+                (said, 1)
+            }
+            (Ok(said), _) => (said, 0),
+        };
+        let note = said.iter().map(|line| format!("bounce-audio: {line}\n"));
         Outcome {
             output: if together.is_empty() {
                 together
             } else {
                 format!("\n{together}")
             },
-            note: if heard {
-                String::new()
-            } else {
-                "bounce-audio: no drop was heard\n".to_owned()
-            },
-            status: u8::from(!heard),
+            note: note.collect(),
+            status,
         }
     }
 }

@@ -90,8 +90,10 @@ enum Form {
 /// Samples as they come.
 pub(super) struct Samples {
     form: Form,
-    /// What writes them, and its name.
-    child: Option<(Child, String)>,
+    /// Where they come from.
+    name: String,
+    /// What writes them.
+    child: Option<Child>,
 }
 
 impl Samples {
@@ -102,11 +104,7 @@ impl Samples {
     /// recording.
     pub(super) fn open(arguments: &Arguments) -> Result<Self, Error> {
         if arguments.input.is_some() {
-            let form = form(Box::new(io::stdin()), arguments.raw, arguments);
-            return Ok(Self {
-                form: form.map_err(|e| e.in_file("standard input"))?,
-                child: None,
-            });
+            return Self::of(Box::new(io::stdin()), arguments);
         }
         let (mut child, name, raw) = if let Some(command) = &arguments.from {
             let child = recorder::start_command(command)?;
@@ -121,7 +119,8 @@ impl Samples {
         match form(Box::new(output), raw, arguments) {
             Ok(form) => Ok(Self {
                 form,
-                child: Some((child, name)),
+                name,
+                child: Some(child),
             }),
             Err(e) => {
                 // One that failed by itself has said why.
@@ -129,6 +128,22 @@ impl Samples {
                 child.wait()?;
                 Err(e.in_file(name))
             }
+        }
+    }
+
+    /// What comes on standard input.
+    pub(super) fn of(
+        input: Box<dyn Read + Send + Sync>,
+        arguments: &Arguments,
+    ) -> Result<Self, Error> {
+        let name = "standard input".to_owned();
+        match form(input, arguments.raw, arguments) {
+            Ok(form) => Ok(Self {
+                form,
+                name,
+                child: None,
+            }),
+            Err(e) => Err(e.in_file(name)),
         }
     }
 
@@ -160,15 +175,25 @@ impl Samples {
         }
     }
 
-    /// Ends what writes the samples.
+    /// Ends what writes the samples, and gives what is to be said of them.
     ///
     /// # Errors
-    /// [`Error::Refused`] if it ended by itself and says that it failed.
-    pub(super) fn end(self, stopped: bool) -> Result<(), Error> {
-        match self.child {
-            Some((mut child, name)) => ended(&mut child, &name, stopped),
-            None => Ok(()),
+    /// What reading failed with, if it did; [`Error::Refused`] if what writes ended by itself and says that it failed;
+    /// [`Error::Wav`] if there was no audio.
+    pub(super) fn end(self, failed: Option<Error>, stopped: bool) -> Result<Vec<String>, Error> {
+        let Self { form, name, child } = self;
+        if let Some(mut child) = child {
+            ended(&mut child, &name, stopped || failed.is_some())?;
         }
+        let ending = match (form, failed) {
+            (_, Some(failed)) => Err(failed),
+            (Form::Recording(stream), None) if !stopped => stream.finish().map(Some),
+            _ => Ok(None),
+        };
+        let ending = ending.map_err(|e| e.in_file(&name))?;
+        let said = ending.map(|ending| ending.warnings.into_iter().chain(ending.tracks));
+        let said = said.into_iter().flatten();
+        Ok(said.map(|warning| format!("{name}: {warning}")).collect())
     }
 }
 
