@@ -47,6 +47,9 @@ def test_paths_that_cannot_be_read_are_told_by_the_system(tmp_path: Path) -> Non
         ({"channel": "left"}, "channel is 'left'"),
         ({"rule": "cricket"}, "rule is 'cricket'"),
         ({"start_s": 5}, "start is 5"),
+        ({"predict_from_m": -1}, "predict_from_m is -1"),
+        ({"reach_m": "high"}, "reach_m is"),
+        ({"reach_m": 1, "reach_bounce": 1.5}, "reach_bounce is 1.5"),
     ],
 )
 def test_settings_that_are_wrong_are_named(

@@ -1,4 +1,4 @@
-"""Settings: what is known of the ball, and how to listen."""
+"""Settings: what is known of the ball, how to listen, and what to predict."""
 
 from __future__ import annotations
 
@@ -50,6 +50,12 @@ class Settings(TypedDict, total=False):
     clock_std: float
     #: How impacts are timed, from fastest to most exact. Default "correlation".
     timing: Literal["envelope", "fraction", "correlation"]
+    #: Predict how high the ball comes back after each of ten bounces when it falls from this height, in metres.
+    predict_from_m: float | None
+    #: Predict from how high it must fall for one of its bounces to rise to this height, in metres.
+    reach_m: float | None
+    #: Which bounce that is, from 1 to 10. Default 2.
+    reach_bounce: int
 
 
 def as_json(settings: Mapping[str, object]) -> str:
