@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from pathlib import Path
 from . import _core
 from .errors import ArgumentError
 
-__all__ = ["Input", "Paths", "gather", "is_remote", "read"]
+__all__ = ["Input", "Paths", "gather", "is_remote", "read", "sha256"]
 
 Paths = str | os.PathLike[str] | Iterable[str | os.PathLike[str]]
 
@@ -46,6 +47,17 @@ def read(name: str) -> bytes:
 
     with fsspec.open(name, "rb") as file:
         return bytes(file.read())
+
+
+def sha256(name: str) -> str:
+    """The SHA-256 of a recording's bytes, in hexadecimal digits."""
+    if is_remote(name):
+        return hashlib.sha256(read(name)).hexdigest()
+    digest = hashlib.sha256()
+    with open(name, "rb") as file:
+        while block := file.read(1 << 20):
+            digest.update(block)
+    return digest.hexdigest()
 
 
 def _of(name: str) -> Iterator[Input]:
