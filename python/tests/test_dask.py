@@ -170,6 +170,8 @@ def test_what_is_wrong_is_said_at_once(tmp_path: Path) -> None:
         analyze_folder(VARIANTS, out, height_m=-1.0)
     with pytest.raises(ArgumentError, match="files_per_shard"):
         analyze_folder(VARIANTS, out, files_per_shard=0)
+    with pytest.raises(FileNotFoundError, match="recordigns"):
+        analyze_folder(tmp_path / "recordigns", out)
     with pytest.raises(ArgumentError, match="run.json"):
         bounce_audio.summary(tmp_path)
     assert not out.exists()

@@ -29,11 +29,20 @@ def gather(paths: Paths) -> list[Input]:
 
     Of a folder all files count, at any depth, whose names end as those of recordings do.
     """
-    named = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+    if isinstance(paths, (str, os.PathLike)):
+        _check_there(os.fspath(paths))
+        paths = [paths]
+    named = list(paths)
     found = [i for p in named for i in _of(os.fspath(p))]
     if not found:
-        raise ArgumentError(f"there are no recordings in {paths!r}")
+        raise ArgumentError(f"there are no recordings in {named!r}")
     return list(dict.fromkeys(found))
+
+
+def _check_there(name: str) -> None:
+    """Of several one that is not there gets a row that says so; the only one is a slip."""
+    if not is_remote(name):
+        os.stat(name)
 
 
 def is_remote(name: str) -> bool:

@@ -15,7 +15,7 @@ from ._documents import build
 from ._notebook import Picture
 from .errors import ArgumentError
 from .results import Drop, Report, Told
-from .settings import Channel, Settings, as_json, channel_number
+from .settings import Channel, Settings, as_json, channel_number, number
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -59,7 +59,7 @@ def analyze(
         raise ArgumentError(f"samples are empty: their shape is {np.shape(samples)}")
     document, pictures = _core.analyze(
         rows,
-        rate,
+        _rate(rate),
         as_json(settings),
         channel=channel_number(channel),
         rule=rule,
@@ -90,7 +90,7 @@ def analyze_file(
     FileNotFoundError: [Errno 2] No such file or directory: 'no-such-file.wav'
     """
     document, pictures = _core.analyze_file(
-        os.fspath(path),
+        os.fsdecode(path),
         as_json(settings),
         channel=channel_number(channel),
         rule=rule,
@@ -178,7 +178,7 @@ class Listener:
         rule: str | None = None,
         **settings: Unpack[Settings],
     ) -> None:
-        self._core = _core.Listener(rate, channels, as_json(settings), rule)
+        self._core = _core.Listener(_rate(rate), channels, as_json(settings), rule)
         self._channels = channels
         self._encoding = "32-bit float"
         self.report = None
@@ -212,6 +212,13 @@ class Listener:
             yield from self.push(block)
         yield from _told(self._core.rest())
         self.finish(name)
+
+
+def _rate(rate: float) -> float:
+    checked = number("rate", rate)
+    if checked is None:
+        raise ArgumentError("rate is None, expected the samples a second")
+    return checked
 
 
 def _told(document: str) -> list[Told]:

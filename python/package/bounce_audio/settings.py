@@ -60,19 +60,34 @@ class Settings(TypedDict, total=False):
 
 def as_json(settings: Mapping[str, object]) -> str:
     """The document of settings, for the library to check."""
-    return json.dumps({name: _number(name, value) for name, value in settings.items()})
+    known = Settings.__annotations__
+    for name in settings:
+        if name not in known:
+            raise ArgumentError(f"{name} is no setting; there are {', '.join(known)}")
+    return json.dumps({name: _plain(name, value) for name, value in settings.items()})
 
 
-def _number(name: str, value: object) -> object:
-    if value is None or isinstance(value, str):
+def _plain(name: str, value: object) -> object:
+    if value is None or name not in ("model", "timing"):
+        return number(name, value)
+    if isinstance(value, str):
         return value
+    raise ArgumentError(f"{name} is {value!r}, expected a name")
+
+
+def number(name: str, value: object) -> float | None:
+    """A finite number, whatever type it came in; None stays. A text is none: it may have a unit."""
+    if value is None:
+        return None
     try:
-        number = float(value)  # type: ignore[arg-type]
+        if isinstance(value, str):
+            raise TypeError(value)
+        as_float = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise ArgumentError(f"{name} is {value!r}, expected a number") from None
-    if not math.isfinite(number):
-        raise ArgumentError(f"{name} is {number}, expected a finite number")
-    return number
+    if not math.isfinite(as_float):
+        raise ArgumentError(f"{name} is {as_float}, expected a finite number")
+    return as_float
 
 
 def channel_number(channel: Channel) -> int | None:
