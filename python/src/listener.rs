@@ -1,7 +1,7 @@
 //! Listening to a stream, block by block.
 
 use bounce_audio::report::{RecordingInfo, Report, json};
-use bounce_audio::{Drop, Error, Listener as Core, Live, Told};
+use bounce_audio::{Error, Listener as Core, Live, Told};
 use numpy::{PyReadonlyArray2, PyUntypedArrayMethods};
 use pyo3::{PyResult, Python, pyclass, pymethods};
 
@@ -59,13 +59,17 @@ impl Listener {
             core.push(&samples.channels)?;
             self.frames += length as u64;
             self.not_finite += samples.not_finite;
-            Ok(drops_of(self.live.hear(&samples.channels)?)?)
+            let told = self.live.hear(&samples.channels)?;
+            Ok(self.document(told)?)
         })
     }
 
     /// The drops that are over because the sound ends here, as a document.
     fn rest(&mut self, py: Python<'_>) -> PyResult<String> {
-        detached(py, || Ok(drops_of(self.live.finish()?)?))
+        detached(py, || {
+            let told = self.live.finish()?;
+            Ok(self.document(told)?)
+        })
     }
 
     /// The document of the whole recording.
@@ -77,6 +81,10 @@ impl Listener {
             let duration_s = self.frames as f64 / self.sample_rate_hz;
             let recording = RecordingInfo::new(self.sample_rate_hz, duration_s, encoding)
                 .with_channel(best + 1, self.channels);
+            analysis
+                .drops
+                .iter_mut()
+                .for_each(|d| self.asked.predict(d));
             let rule = self.asked.judged(&analysis.drops)?;
             let settings = self.asked.settings.clone();
             let report = Report::new(name, recording, settings, analysis, rule);
@@ -85,10 +93,13 @@ impl Listener {
     }
 }
 
-/// The document of the drops that were told.
-fn drops_of(told: Vec<Told>) -> serde_json::Result<String> {
-    let drops: Vec<Drop> = told.into_iter().map(|told| told.drop).collect();
-    serde_json::to_string(&drops)
+impl Listener {
+    /// The document of the drops that were told.
+    fn document(&self, mut told: Vec<Told>) -> serde_json::Result<String> {
+        told.iter_mut()
+            .for_each(|t| self.asked.predict(&mut t.drop));
+        serde_json::to_string(&told)
+    }
 }
 
 fn finished() -> Error {

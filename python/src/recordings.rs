@@ -44,6 +44,7 @@ pub(crate) fn analyze(
             RecordingInfo::new(sample_rate_hz, length as f64 / sample_rate_hz, encoding);
         let (best, mut analysis) = heard(&samples, sample_rate_hz, channel, &asked)?;
         analysis.warnings.extend(repaired(samples.not_finite));
+        analysis.drops.iter_mut().for_each(|d| asked.predict(d));
         let recording = recording.with_channel(best + 1, samples.channels.len());
         let rule = asked.judged(&analysis.drops)?;
         let report = Report::new(name, recording, asked.settings, analysis, rule);
@@ -104,6 +105,7 @@ fn of_stream(
 ) -> Result<Report, Error> {
     let channel = channel.map_or(Channel::Best, Channel::Number);
     let mut report = listen(stream, name, channel, &asked.settings)?;
+    report.drops.iter_mut().for_each(|d| asked.predict(d));
     report.rule = asked.judged(&report.drops)?;
     Ok(report)
 }

@@ -3,7 +3,7 @@
 use bounce_audio::fit_times;
 use pyo3::{PyResult, Python, pyfunction};
 
-use crate::asked::settings;
+use crate::asked::Asked;
 use crate::failure::detached;
 
 /// The document of the drop with these times and errors.
@@ -14,10 +14,11 @@ pub(crate) fn fit(
     errors_s: Vec<f64>,
     document: &str,
 ) -> PyResult<String> {
-    let settings = settings(document)?;
+    let asked = Asked::new(document, None)?;
     detached(py, || {
         let times: Vec<(f64, f64)> = times_s.into_iter().zip(errors_s).collect();
-        let analysis = fit_times(&[times], &settings)?;
+        let mut analysis = fit_times(&[times], &asked.settings)?;
+        asked.predict(&mut analysis.drops[0]);
         Ok(serde_json::to_string(&analysis.drops[0])?)
     })
 }

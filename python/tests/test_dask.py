@@ -129,6 +129,39 @@ def test_what_changes_is_done_again(recordings: Path, tmp_path: Path) -> None:
         bounce_audio.summary(out)
 
 
+def test_content_that_changed_behind_its_time_is_found_when_asked(
+    recordings: Path, tmp_path: Path
+) -> None:
+    files, out = tmp_path / "files", tmp_path / "out"
+    files.mkdir()
+    names = ["a.wav", "b\nb.wav", "c\\c.wav", "d.wav"]
+    for name in names:
+        shutil.copy(recordings / "00.wav", files / name)
+
+    def shards_before(verify: bool) -> int:
+        return analyze_folder(
+            files, out, files_per_shard=2, parquet=False, verify=verify, **SETTINGS
+        ).shards_before
+
+    assert [shards_before(v) for v in (False, True)] == [0, 2]
+    sums = sorted(out.glob("*.sha256"))
+    assert len(sums) == 2
+    subprocess.run(["sha256sum", "--check", "--quiet", *sums], check=True)
+    before = output(out)
+    changed = files / "d.wav"
+    times, content = changed.stat(), changed.read_bytes()
+    # As long, and silent from the first second on.
+    kept = 2 * 44_100
+    changed.write_bytes(content[:kept] + bytes(len(content) - kept))
+    os.utime(changed, ns=(times.st_atime_ns, times.st_mtime_ns))
+    assert [shards_before(v) for v in (False, True, True)] == [2, 1, 2]
+    after = output(out)
+    assert sum(after[name] != before[name] for name in before) == 2
+    last = list(bounce_audio.folders.lines(out))[-1]
+    alone = bounce_audio.analyze_file(changed, **SETTINGS)
+    assert json.loads(last) == alone.to_dict()
+
+
 def test_what_is_wrong_is_said_at_once(tmp_path: Path) -> None:
     out = tmp_path / "out"
     with pytest.raises(ArgumentError, match="no recordings"):
@@ -137,6 +170,8 @@ def test_what_is_wrong_is_said_at_once(tmp_path: Path) -> None:
         analyze_folder(VARIANTS, out, height_m=-1.0)
     with pytest.raises(ArgumentError, match="files_per_shard"):
         analyze_folder(VARIANTS, out, files_per_shard=0)
+    with pytest.raises(FileNotFoundError, match="recordigns"):
+        analyze_folder(tmp_path / "recordigns", out)
     with pytest.raises(ArgumentError, match="run.json"):
         bounce_audio.summary(tmp_path)
     assert not out.exists()
@@ -215,6 +250,49 @@ def test_a_recording_that_kills_every_worker_has_a_line_that_says_so(
     failed = [d for d in documents if "error" in d]
     assert [d["file"][-6:] for d in failed] == ["05.wav"]
     assert "killed" in failed[0]["error"]
+
+
+def test_a_killed_scheduler_costs_no_shard_that_was_written(
+    undisturbed: Path, recordings: Path, tmp_path: Path
+) -> None:
+    out, address = tmp_path / "out", tmp_path / "scheduler.json"
+    command = "from distributed.cli import dask_{0} as d; d.main()"
+    at = ["--scheduler-file", str(address), "--host", "127.0.0.1"]
+
+    def start(what: str, *more: str) -> subprocess.Popen[bytes]:
+        words = [sys.executable, "-c", command.format(what), *at, "--no-dashboard", *more]
+        return subprocess.Popen(words, stderr=subprocess.DEVNULL)
+
+    scheduler = start("scheduler", "--port", "0")
+    workers = [
+        start("worker", "--nthreads", "1", "--no-nanny", "--death-timeout", "10")
+        for _ in range(2)
+    ]
+
+    def kill() -> None:
+        while not list(out.glob("*.ndjson")):
+            time.sleep(0.01)
+        scheduler.kill()
+
+    killer = threading.Thread(target=kill)
+    try:
+        while not address.exists():
+            time.sleep(0.01)
+        with distributed.Client(scheduler_file=str(address), timeout=30) as client:
+            killer.start()
+            with pytest.raises(ConnectionError, match="scheduler is gone"):
+                analyze_folder(
+                    recordings, out, files_per_shard=6, client=client, **SETTINGS
+                )
+            killer.join()
+    finally:
+        for process in (scheduler, *workers):
+            process.kill()
+            process.wait()
+    assert 0 < len(list(out.glob("*.ndjson"))) < 7
+    run = analyze_folder(recordings, out, files_per_shard=6, **SETTINGS)
+    assert 0 < run.shards_before < run.shards
+    assert output(out) == output(undisturbed)
 
 
 @pytest.mark.parametrize("after_s", [0.7, 0.9, 1.2, 1.6, 2.1])

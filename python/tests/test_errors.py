@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pickle
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -37,16 +38,20 @@ def test_paths_that_cannot_be_read_are_told_by_the_system(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("settings", "said"),
     [
-        ({"hight_m": 0.3}, "unknown field `hight_m`.*height_m"),
+        ({"hight_m": 0.3}, "hight_m is no setting.* height_m"),
         ({"height_m": -1}, "height is -1"),
         ({"height_m": float("nan")}, "height_m is nan"),
-        ({"height_m": "high"}, "height_m|settings"),
+        ({"height_m": "30cm"}, "height_m is '30cm', expected a number"),
         ({"mass_kg": [1, 2]}, "mass_kg is"),
         ({"model": "cubic"}, "cubic"),
+        ({"model": 3}, "model is 3, expected a name"),
         ({"channel": 0}, "channel is 0"),
         ({"channel": "left"}, "channel is 'left'"),
         ({"rule": "cricket"}, "rule is 'cricket'"),
         ({"start_s": 5}, "start is 5"),
+        ({"predict_from_m": -1}, "predict_from_m is -1"),
+        ({"reach_m": "high"}, "reach_m is"),
+        ({"reach_m": 1, "reach_bounce": 1.5}, "reach_bounce is 1.5"),
     ],
 )
 def test_settings_that_are_wrong_are_named(
@@ -56,10 +61,21 @@ def test_settings_that_are_wrong_are_named(
         bounce_audio.analyze(SILENCE, 48_000, **settings)  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("rate", [0, -48_000, 100, float("nan"), float("inf")])
-def test_rates_that_are_none_are_refused(rate: float) -> None:
+@pytest.mark.parametrize(
+    "rate", [0, -48_000, 100, float("nan"), float("inf"), "48000", None]
+)
+def test_rates_that_are_none_are_refused(rate: Any) -> None:
     with pytest.raises(ArgumentError, match="rate"):
         bounce_audio.analyze(SILENCE, rate)
+
+
+def test_what_was_meant_otherwise_says_what_to_do(recording: Path) -> None:
+    with pytest.raises(ArgumentError, match="analyze_file listens to a file"):
+        bounce_audio.analyze(str(recording), 48_000)
+    with pytest.raises(ArgumentError, match=r"scene is 'pong', .*presets\(\)"):
+        bounce_audio.synth("pong")
+    by_bytes = bounce_audio.analyze_file(bytes(recording))  # type: ignore[arg-type]
+    assert by_bytes == bounce_audio.analyze_file(recording)
 
 
 def test_numbers_of_numpy_are_numbers(pingpong: bounce_audio.Synthetic) -> None:

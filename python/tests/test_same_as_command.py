@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import bounce_audio
+from bounce_audio import Settings
 from bounce_audio.errors import RecordingError
 from conftest import PROJECT, Command
 
@@ -57,6 +58,33 @@ def test_settings_and_a_rule_give_it_too(recording: Path, command: Command) -> N
     )
     assert report.to_dict() == json.loads(done.stdout)
     assert report.rule is not None and report.rule.drops[0].rebound_m is not None
+
+
+def test_predictions_are_those_of_the_command(
+    recording: Path, pingpong: bounce_audio.Synthetic, command: Command
+) -> None:
+    words = "--predict 30.5cm --reach 1m --reach-bounce 3"
+    done = command("analyze", recording, *words.split(), "--format", "json")
+    asked: Settings = {"predict_from_m": 0.305, "reach_m": 1.0, "reach_bounce": 3}
+    report = bounce_audio.analyze_file(recording, **asked)
+    assert report.to_dict() == json.loads(done.stdout)
+    [drop] = report.drops
+    prediction = drop.prediction
+    assert prediction is not None and prediction.rebounds is not None
+    heights = [height.value for height in prediction.rebounds.heights_m]
+    assert len(heights) == 10 and heights == sorted(heights, reverse=True)
+    assert prediction.reach is not None and prediction.reach.bounce == 3
+    # The other ways to a drop give it too.
+    samples, rate = pingpong.samples, pingpong.sample_rate_hz
+    by_samples = bounce_audio.analyze(samples, rate, **asked).drops[0]
+    assert by_samples.prediction is not None
+    listener = bounce_audio.Listener(rate, **asked)
+    told = list(listener.drops([samples]))
+    assert told[0].drop.prediction is not None and listener.report is not None
+    assert listener.report.drops[0].prediction == by_samples.prediction
+    times = drop.impacts["time_s"], drop.impacts["time_std_s"]
+    assert bounce_audio.fit(*times, **asked).prediction is not None
+    assert "prediction" not in bounce_audio.fit(*times).to_dict()
 
 
 def test_samples_give_what_their_file_does(

@@ -23,7 +23,7 @@ from .errors import (
 )
 from .folders import summary
 from .listening import Listener, analyze, analyze_bytes, analyze_file, fit
-from .results import IMPACT, Drop, Report
+from .results import IMPACT, Drop, Report, Told
 from .settings import Settings
 from .solving import solve
 from .synthesis import Synthetic, Truth, presets, synth
@@ -43,6 +43,7 @@ __all__ = [
     "Rule",
     "Settings",
     "Synthetic",
+    "Told",
     "Truth",
     "__version__",
     "analyze",

@@ -50,7 +50,8 @@ def _encoding(dtype: np.dtype[Any]) -> str:
             return f"{bits}-bit integer"
         case "f":
             return f"{bits}-bit float"
-    raise ArgumentError(f"samples are of type {dtype}, expected floats or integers")
+    of_file = "; analyze_file listens to a file" if dtype.kind in "US" else ""
+    raise ArgumentError(f"samples are of type {dtype}, expected floats or integers{of_file}")
 
 
 def _scaled(array: npt.NDArray[Any]) -> npt.NDArray[np.float32]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import io
 import json
@@ -16,7 +17,10 @@ from . import _core, _inputs
 from ._inputs import Input
 from .errors import BounceAudioError
 
-__all__ = ["Job", "Shard", "clear", "failure", "is_done", "listen", "plan", "put", "run", "write"]
+__all__ = ["Job", "Shard", "clear", "failure", "is_done", "listen", "plan", "put", "run", "sums", "write"]
+
+#: The ending of the file with the SHA-256 of a shard's recordings.
+SUMS = ".sha256"
 
 _TEXTS = {"file", "status", "reason", "model", "warnings"}
 _COUNTS = {"drop", "drops", "bounces", "channel"}
@@ -31,6 +35,7 @@ class Job:
     channel: int | None
     rule: str | None
     parquet: bool
+    verify: bool = False
 
     def check(self) -> None:
         """Raises what each recording would: settings out of range, a rule that is not known."""
@@ -61,15 +66,37 @@ def _shard(inputs: Sequence[Input], job: Job) -> Shard:
 
 def is_done(shard: Shard, job: Job) -> bool:
     """Whether all of its files are written."""
-    endings = [".ndjson", ".parquet"] if job.parquet else [".ndjson"]
+    endings = [".ndjson", SUMS, ".parquet"] if job.parquet else [".ndjson", SUMS]
     return all(os.path.exists(_path(shard, job, ending)) for ending in endings)
 
 
-def run(shard: Shard, job: Job) -> str:
-    """Listens to a shard and writes it; gives its name."""
-    if not is_done(shard, job):
-        write(shard, job, [listen(file, job) for file in shard.files])
+def run(shard: Shard, job: Job) -> str | None:
+    """Listens to a shard and writes it; gives its name, or None where it stands and, if that is asked, is verified."""
+    if is_done(shard, job) and not (job.verify and _has_changed(shard, job)):
+        return None
+    # Before listening: what changes meanwhile is found by the next verification.
+    content = sums(shard)
+    write(shard, job, [listen(file, job) for file in shard.files], content)
     return shard.name
+
+
+def _has_changed(shard: Shard, job: Job) -> bool:
+    """Whether the content of its recordings is not what was listened to."""
+    return _path(shard, job, SUMS).read_bytes() != sums(shard)
+
+
+def sums(shard: Shard) -> bytes:
+    """The SHA-256 of its recordings, as `sha256sum` writes and checks it; what cannot be read has no line."""
+    lines = []
+    for name in shard.files:
+        with contextlib.suppress(OSError):
+            lines.append(_sum_line(name, _inputs.sha256(name)))
+    return "".join(lines).encode("utf-8", "surrogateescape")
+
+
+def _sum_line(name: str, digest: str) -> str:
+    escaped = name.replace("\\", "\\\\").replace("\n", "\\n").replace("\r", "\\r")
+    return f"{'' if escaped == name else chr(92)}{digest}  {escaped}\n"
 
 
 def listen(file: str, job: Job) -> str:
@@ -97,8 +124,9 @@ def failure(file: str, reason: str) -> str:
     return json.dumps(row, ensure_ascii=False, separators=(",", ":")) + "\n"
 
 
-def write(shard: Shard, job: Job, lines: list[str]) -> None:
+def write(shard: Shard, job: Job, lines: list[str], content: bytes) -> None:
     """Writes the lines of a shard; a shard has its NDJSON last, once all else is there."""
+    put(_path(shard, job, SUMS), content)
     if job.parquet:
         put(_path(shard, job, ".parquet"), _parquet(lines))
     put(_path(shard, job, ".ndjson"), "".join(lines).encode())

@@ -11,6 +11,7 @@ import importlib.util
 import json
 import os
 import sys
+from concurrent.futures import CancelledError
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,6 +47,7 @@ def analyze_folder(
     rule: str | None = None,
     files_per_shard: int = 100,
     parquet: bool | None = None,
+    verify: bool = False,
     client: Any = None,
     workers: int | None = None,
     progress: bool | None = None,
@@ -63,10 +65,13 @@ def analyze_folder(
     shards are done, by default on a terminal.
 
     Shards are written aside and renamed, and named by the version, the settings, and the name, size and time of each
-    recording: whatever was interrupted, the same call goes on where it was. A shard whose worker was killed is done again
-    by another one; a recording that kills every worker has a line that says so. Results do not depend on the workers.
+    recording: whatever was interrupted, the same call goes on where it was. Beside each is the SHA-256 of its recordings
+    as `sha256sum --check` reads it; with `verify` the workers compare it with what is there now, and listen again to shards
+    whose recordings changed behind an unchanged size and time. A shard whose worker was killed is done again by another
+    one; a recording that kills every worker has a line that says so. Results do not depend on the workers.
 
-    Raises `ArgumentError` for a setting out of range, or no recordings.
+    Raises `ArgumentError` for a setting out of range, or no recordings, and `ConnectionError` when the scheduler of the
+    client dies: what is done stays, and the same call with another client goes on.
     """
     job = Job(
         out=os.path.abspath(out),
@@ -74,6 +79,7 @@ def analyze_folder(
         channel=channel_number(channel),
         rule=rule,
         parquet=_has("pyarrow") if parquet is None else parquet,
+        verify=verify,
     )
     job.check()
     if files_per_shard < 1:
@@ -81,17 +87,19 @@ def analyze_folder(
     inputs = _inputs.gather(paths)
     shards = _shards.plan(inputs, job, files_per_shard)
     _say_what_is_run(shards, job)
-    todo = [shard for shard in shards if not _shards.is_done(shard, job)]
+    before = {shard.name for shard in shards if _shards.is_done(shard, job)}
+    todo = [shard for shard in shards if verify or shard.name not in before]
     shown = sys.stderr.isatty() if progress is None else progress
     client = _active() if client is None else client
     done = _by_threads(todo, job, workers) if client is None else _by_client(todo, job, client)
-    for number, _ in enumerate(done, 1):
+    for number, name in enumerate(done, 1):
+        before.discard(name or "")
         if shown:
             print(f"\r{number} of {len(todo)} shards", end="", file=sys.stderr, flush=True)
     if shown and todo:
         print(file=sys.stderr)
     _shards.clear(shards, job)
-    return Run(job.out, len(inputs), len(shards), len(shards) - len(todo))
+    return Run(job.out, len(inputs), len(shards), len(before))
 
 
 def _has(module: str) -> bool:
@@ -123,7 +131,7 @@ def _active() -> Any:
         return None
 
 
-def _by_threads(todo: list[Shard], job: Job, workers: int | None) -> Iterator[str]:
+def _by_threads(todo: list[Shard], job: Job, workers: int | None) -> Iterator[str | None]:
     """In threads of this process, by Dask's own scheduler for them."""
     import dask
     from dask.system import CPU_COUNT
@@ -135,32 +143,42 @@ def _by_threads(todo: list[Shard], job: Job, workers: int | None) -> Iterator[st
         yield from dask.compute(*tasks, scheduler="threads", num_workers=count)
 
 
-def _by_client(todo: list[Shard], job: Job, client: Any) -> Iterator[str]:
+def _by_client(todo: list[Shard], job: Job, client: Any) -> Iterator[str | None]:
     from distributed import KilledWorker, as_completed
 
     futures = {client.submit(_shards.run, s, job, pure=False): s for s in todo}
     deadly = []
     for future in as_completed(list(futures)):
-        if future.status == "error":
-            error = future.exception()
-            if not isinstance(error, KilledWorker):
-                raise error
+        try:
+            yield _result(future)
+        except KilledWorker:
             deadly.append(futures[future])
-            continue
-        yield futures[future].name
     for shard in deadly:
         yield _one_by_one(shard, job, client)
+
+
+def _result(future: Any) -> Any:
+    """What a task gave; it raises what the task did. What was asked of a scheduler that died is cancelled."""
+    try:
+        return future.result()
+    except (CancelledError, OSError) as error:
+        if future.status == "error":
+            raise
+        raise ConnectionError(
+            "the scheduler is gone: the same call goes on where it was"
+        ) from error
 
 
 def _one_by_one(shard: Shard, job: Job, client: Any) -> str:
     """A shard that killed its workers, to find the recording that did."""
     from distributed import KilledWorker
 
+    content = _result(client.submit(_shards.sums, shard, pure=False))
     lines = []
     for file in shard.files:
         try:
-            lines.append(client.submit(_shards.listen, file, job, pure=False).result())
+            lines.append(_result(client.submit(_shards.listen, file, job, pure=False)))
         except KilledWorker:
             lines.append(_shards.failure(file, "every worker that listened to it was killed"))
-    _shards.write(shard, job, lines)
+    _shards.write(shard, job, lines, content)
     return shard.name

@@ -14,8 +14,8 @@ from . import _arrays, _core
 from ._documents import build
 from ._notebook import Picture
 from .errors import ArgumentError
-from .results import Drop, Report
-from .settings import Channel, Settings, as_json, channel_number
+from .results import Drop, Report, Told
+from .settings import Channel, Settings, as_json, channel_number, number
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -59,7 +59,7 @@ def analyze(
         raise ArgumentError(f"samples are empty: their shape is {np.shape(samples)}")
     document, pictures = _core.analyze(
         rows,
-        rate,
+        _rate(rate),
         as_json(settings),
         channel=channel_number(channel),
         rule=rule,
@@ -90,7 +90,7 @@ def analyze_file(
     FileNotFoundError: [Errno 2] No such file or directory: 'no-such-file.wav'
     """
     document, pictures = _core.analyze_file(
-        os.fspath(path),
+        os.fsdecode(path),
         as_json(settings),
         channel=channel_number(channel),
         rule=rule,
@@ -162,9 +162,9 @@ class Listener:
     >>> made = bounce_audio.synth("pingpong")
     >>> sound = np.concatenate([made.samples, np.zeros(5 * made.sample_rate_hz, np.float32)])
     >>> listener = bounce_audio.Listener(made.sample_rate_hz)
-    >>> for drop in listener.drops(np.array_split(sound, 100)):
-    ...     print(drop.bounces > 50)
-    True
+    >>> for told in listener.drops(np.array_split(sound, 100)):
+    ...     print(told.number, told.drop.bounces > 50)
+    1 True
     """
 
     #: The report, once the stream has ended.
@@ -178,21 +178,22 @@ class Listener:
         rule: str | None = None,
         **settings: Unpack[Settings],
     ) -> None:
-        self._core = _core.Listener(rate, channels, as_json(settings), rule)
+        self._core = _core.Listener(_rate(rate), channels, as_json(settings), rule)
         self._channels = channels
         self._encoding = "32-bit float"
         self.report = None
 
-    def push(self, block: npt.ArrayLike) -> list[Drop]:
+    def push(self, block: npt.ArrayLike) -> list[Told]:
         """Listens to the next samples, of shape (n,) or (channels, n); gives the drops that are over.
 
-        A drop is told within a second of its last impact, and again if more of it is heard later. What is told early may
-        differ by a little from the report of `finish`, which has heard what came after it.
+        A drop is told within a second of its last impact, and again by the same number if more of it is heard later: what
+        was told before is replaced by it. What is told early may differ by a little from the report of `finish`, which has
+        heard what came after it.
 
         Raises `ArgumentError` for a wrong shape or type, or after `finish`.
         """
         rows, self._encoding = _arrays.rows(block, self._channels)
-        return _drops(self._core.push(rows))
+        return _told(self._core.push(rows))
 
     def finish(self, name: str = "stream") -> Report:
         """Ends the stream; gives the report of all of it, with the drops told before.
@@ -205,16 +206,23 @@ class Listener:
 
     def drops(
         self, blocks: Iterable[npt.ArrayLike], name: str = "stream"
-    ) -> Iterator[Drop]:
+    ) -> Iterator[Told]:
         """Listens to all blocks and gives each drop as `push` does; then `report` has all that was found."""
         for block in blocks:
             yield from self.push(block)
-        yield from _drops(self._core.rest())
+        yield from _told(self._core.rest())
         self.finish(name)
 
 
-def _drops(document: str) -> list[Drop]:
-    return [build(Drop, d) for d in json.loads(document)]
+def _rate(rate: float) -> float:
+    checked = number("rate", rate)
+    if checked is None:
+        raise ArgumentError("rate is None, expected the samples a second")
+    return checked
+
+
+def _told(document: str) -> list[Told]:
+    return [build(Told, told) for told in json.loads(document)]
 
 
 def _report(document: str, pictures: _core.Pictures | None = None) -> Report:

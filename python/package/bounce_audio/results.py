@@ -32,7 +32,10 @@ __all__ = [
     "Model",
     "ModelCandidate",
     "Parameters",
+    "Prediction",
+    "Reach",
     "Rebound",
+    "Rebounds",
     "Recording",
     "Rejected",
     "Release",
@@ -42,6 +45,7 @@ __all__ = [
     "Scatter",
     "SettingsUsed",
     "Spread",
+    "Told",
     "Unfitted",
     "Warning",
 ]
@@ -261,8 +265,35 @@ class Release(Document):
 
 
 @dataclass(frozen=True, eq=False)
+class Rebounds(Document):
+    """How high the ball comes back from a height, in metres: after each bounce, ten unless it comes to rest before."""
+
+    drop_height_m: float
+    heights_m: tuple[Estimate, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Reach(Document):
+    """From how high the ball must fall for a bounce, counted from 1, to rise to `height_m`; None where no height is enough."""
+
+    bounce: int
+    height_m: float
+    drop_height_m: Estimate | None
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction(Document):
+    """What another drop of the ball would do, with the errors of one drop: what was not asked is None."""
+
+    rebounds: Rebounds | None
+    reach: Reach | None
+
+
+@dataclass(frozen=True, eq=False)
 class Drop(Document):
     """One drop. `restitution.value` is the answer, `impacts` an array with a row for each impact (see `IMPACT`)."""
+
+    _left_out_if_empty = frozenset(("prediction",))
 
     channel: int
     impacts: Annotated[npt.NDArray[np.void], _TABLE]
@@ -284,6 +315,8 @@ class Drop(Document):
     irregular: tuple[Irregular, ...]
     rejected: tuple[Rejected, ...]
     warnings: tuple[Warning, ...]
+    #: None unless `predict_from_m` or `reach_m` asked for it, and where e has no error.
+    prediction: Prediction | None = None
     _picture: _notebook.Picture | None = field(default=None, repr=False)
 
     def to_dataframe(self) -> pd.DataFrame:
@@ -319,6 +352,14 @@ class Drop(Document):
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "_picture": None}
+
+
+@dataclass(frozen=True, eq=False)
+class Told(Document):
+    """A drop as it was heard so far, and its number from 1. A drop of which more was heard is told again by its number."""
+
+    number: int
+    drop: Drop
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Settings: what is known of the ball, and how to listen."""
+"""Settings: what is known of the ball, how to listen, and what to predict."""
 
 from __future__ import annotations
 
@@ -50,23 +50,44 @@ class Settings(TypedDict, total=False):
     clock_std: float
     #: How impacts are timed, from fastest to most exact. Default "correlation".
     timing: Literal["envelope", "fraction", "correlation"]
+    #: Predict how high the ball comes back after each of ten bounces when it falls from this height, in metres.
+    predict_from_m: float | None
+    #: Predict from how high it must fall for one of its bounces to rise to this height, in metres.
+    reach_m: float | None
+    #: Which bounce that is, from 1 to 10. Default 2.
+    reach_bounce: int
 
 
 def as_json(settings: Mapping[str, object]) -> str:
     """The document of settings, for the library to check."""
-    return json.dumps({name: _number(name, value) for name, value in settings.items()})
+    known = Settings.__annotations__
+    for name in settings:
+        if name not in known:
+            raise ArgumentError(f"{name} is no setting; there are {', '.join(known)}")
+    return json.dumps({name: _plain(name, value) for name, value in settings.items()})
 
 
-def _number(name: str, value: object) -> object:
-    if value is None or isinstance(value, str):
+def _plain(name: str, value: object) -> object:
+    if value is None or name not in ("model", "timing"):
+        return number(name, value)
+    if isinstance(value, str):
         return value
+    raise ArgumentError(f"{name} is {value!r}, expected a name")
+
+
+def number(name: str, value: object) -> float | None:
+    """A finite number, whatever type it came in; None stays. A text is none: it may have a unit."""
+    if value is None:
+        return None
     try:
-        number = float(value)  # type: ignore[arg-type]
+        if isinstance(value, str):
+            raise TypeError(value)
+        as_float = float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError):
         raise ArgumentError(f"{name} is {value!r}, expected a number") from None
-    if not math.isfinite(number):
-        raise ArgumentError(f"{name} is {number}, expected a finite number")
-    return number
+    if not math.isfinite(as_float):
+        raise ArgumentError(f"{name} is {as_float}, expected a finite number")
+    return as_float
 
 
 def channel_number(channel: Channel) -> int | None:

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._documents import Document, build
+from .errors import ArgumentError
 
 __all__ = ["DropTruth", "Synthetic", "Truth", "presets", "synth"]
 
@@ -95,6 +96,8 @@ def synth(scene: str | os.PathLike[str] = "pingpong", *, seed: int = 1) -> Synth
     """
     name = os.fspath(scene)
     is_file = isinstance(scene, os.PathLike) or name.endswith(".toml")
+    if not is_file and name not in presets():
+        raise ArgumentError(f"scene is '{name}', expected a name of presets() or a path that ends in .toml")
     text = Path(name).read_text("utf-8") if is_file else name
     rows, document = _core.synth(text, is_file, seed)
     truth = build(Truth, json.loads(document))
