@@ -36,7 +36,7 @@
 //! | `plots` | `picture`: a report as SVG and PNG |
 //! | `lab` | `synth`: recordings with known truth |
 //! | `cli` | `cli::run`, the command line; it is switched on by default, with all of the above |
-//! | `internals` | the stages, for this project's own tests, examples, benches and Python package; it promises nothing |
+//! | `internals` | the stages, for this project's own tests, examples, benches, Python package and page; it promises nothing |
 //!
 //! The stages of the core, each a folder: `signal` (octave bands, whitening, correlation, interpolation), `detect` (candidate
 //! impacts), `sequence` (the chain that is a drop), `timing` (the times of its impacts), `fit` (e from these), `analysis` (the

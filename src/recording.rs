@@ -38,14 +38,15 @@ impl Channel {
     }
 }
 
-/// What is asked of a recording.
+/// What is asked of a recording, where it is more than [`listen`] asks.
 #[derive(Debug, Default)]
-pub(crate) struct Request<'a> {
+pub struct Request<'a> {
     /// How to listen.
     pub settings: Settings,
     /// To what.
     pub channel: Channel,
-    /// A file of labels and the impacts of each drop in it, which are fitted in place of those heard.
+    /// A file of labels and the impacts of each drop in it, as [`labels::drops`](crate::report::labels::drops) gives them:
+    /// exactly those are fitted, and where listening starts and ends has no meaning.
     pub labels: Option<(&'a Path, Vec<Vec<Marked>>)>,
     /// The rule to judge by.
     pub rule: Option<Rule>,
@@ -82,31 +83,13 @@ pub fn listen(
     request.listen(stream, name)
 }
 
-/// Fits the impacts of each drop that a person set in a stream, as [`labels::drops`](crate::report::labels::drops) gives
-/// them: exactly those, nothing is searched for. Where listening starts and ends has no meaning here.
-///
-/// # Errors
-/// As for [`listen`]; [`Error::Line`] within [`Error::InFile`] for an impact after the end and for a drop of which fewer
-/// than two impacts were heard.
-pub fn fit_labelled(
-    stream: Stream<'_>,
-    name: &str,
-    drops: Vec<Vec<Marked>>,
-    channel: Channel,
-    settings: &Settings,
-) -> Result<Report, Error> {
-    let request = Request {
-        settings: settings.clone(),
-        channel,
-        labels: Some((Path::new("labels"), drops)),
-        ..Request::default()
-    };
-    request.listen(stream, name)
-}
-
 impl Request<'_> {
     /// The report of a stream, which is read to its end.
-    pub(crate) fn listen(&self, stream: Stream<'_>, name: &str) -> Result<Report, Error> {
+    ///
+    /// # Errors
+    /// As for [`listen`]; [`Error::Line`] within [`Error::InFile`] for a labelled impact after the end and for a drop of which
+    /// fewer than two impacts were heard.
+    pub fn listen(&self, stream: Stream<'_>, name: &str) -> Result<Report, Error> {
         let settings = self.settings();
         let channels = stream.channels();
         let heard = self.channel.of(channels)?;

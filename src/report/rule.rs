@@ -137,43 +137,46 @@ pub struct BallJudged {
     pub why: Option<String>,
 }
 
-/// The verdict on a drop, one entry after another.
-pub(super) fn entries(rule: &RuleReport, drop: usize) -> Vec<String> {
-    let Some(judged) = rule.drops.get(drop) else {
-        return Vec::new();
-    };
-    let unit = Unit::of(rule.drop_height_m);
-    let outcome = judged.outcome.word();
-    let (height, allowed) = (
-        unit.shown(rule.drop_height_m, 0),
-        unit.range(rule.allowed_m),
-    );
-    let mut entries = vec![format!(
-        "{}: {outcome}; from {height}, {allowed} are allowed",
-        rule.name
-    )];
-    let rebound = judged.rebound_m.as_ref();
-    let own = judged.evidence == Evidence::FirstRebound;
-    let head = if own {
-        "its own first rebound"
-    } else {
-        "rebound predicted"
-    };
-    entries.extend(rebound.map(|r| format!("{head} {}", unit.estimate(r))));
-    let fitted = judged.fitted_rebound_m.as_ref();
-    entries.extend(fitted.map(|r| format!("by e there {}", unit.estimate(r))));
-    if let (Some(e), Some([slowest, fastest]), true) = (
-        judged.restitution,
-        judged.measured_speeds_m_per_s,
-        judged.extrapolated && !own,
-    ) {
-        entries.push(format!(
+impl RuleReport {
+    /// The verdict on the drop of this index, one entry after another.
+    #[must_use]
+    pub fn in_words(&self, drop: usize) -> Vec<String> {
+        let Some(judged) = self.drops.get(drop) else {
+            return Vec::new();
+        };
+        let unit = Unit::of(self.drop_height_m);
+        let outcome = judged.outcome.word();
+        let (height, allowed) = (
+            unit.shown(self.drop_height_m, 0),
+            unit.range(self.allowed_m),
+        );
+        let mut entries = vec![format!(
+            "{}: {outcome}; from {height}, {allowed} are allowed",
+            self.name
+        )];
+        let rebound = judged.rebound_m.as_ref();
+        let own = judged.evidence == Evidence::FirstRebound;
+        let head = if own {
+            "its own first rebound"
+        } else {
+            "rebound predicted"
+        };
+        entries.extend(rebound.map(|r| format!("{head} {}", unit.estimate(r))));
+        let fitted = judged.fitted_rebound_m.as_ref();
+        entries.extend(fitted.map(|r| format!("by e there {}", unit.estimate(r))));
+        if let (Some(e), Some([slowest, fastest]), true) = (
+            judged.restitution,
+            judged.measured_speeds_m_per_s,
+            judged.extrapolated && !own,
+        ) {
+            entries.push(format!(
             "e there is {e:.4} at {:.2} m/s, extrapolated: it was measured from {slowest:.2} to {fastest:.2} m/s",
             judged.impact_speed_m_per_s
         ));
+        }
+        entries.extend(judged.would_decide.clone());
+        entries
     }
-    entries.extend(judged.would_decide.clone());
-    entries
 }
 
 /// The verdict on all drops together.

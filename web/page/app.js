@@ -10,13 +10,13 @@ import { inOrder, moved, setByHand, toggled } from "./marks.js";
 import { PageRecording } from "./recording.js";
 import { showResult } from "./result.js";
 import { save, stem } from "./save.js";
-import { settingsTyped, watchSettings } from "./settings.js";
+import { asked, offerChannels, offerRules, watchSettings } from "./settings.js";
 
 const engine = new Engine();
 const recordings = [];
 let shown = null;
 let place = 0;
-let settings = "{}";
+let wanted = "{}";
 
 function nameProblem(recording) {
   const { problem, file } = recording;
@@ -27,6 +27,12 @@ function nameProblem(recording) {
 
 function showTable() {
   showClass(recordings, shown, { show, remove: removeRecording });
+}
+
+// The channels that can be chosen are those of the recording that has most.
+function showChannels(isNew) {
+  offerChannels(Math.max(0, ...recordings.map((one) => one.report?.recording.channels ?? 0)), isNew);
+  wanted = asked() ?? wanted;
 }
 
 function showButtons() {
@@ -51,7 +57,7 @@ function show(recording, drop) {
 }
 
 async function measure(recording) {
-  const isLast = await recording.measure(engine, settings);
+  const isLast = await recording.measure(engine, wanted);
   nameProblem(recording);
   return isLast;
 }
@@ -155,6 +161,7 @@ async function open(files, isMicrophone = false) {
   if (!isMicrophone) recordings.splice(0);
   const added = files.map((file) => new PageRecording(file, isMicrophone));
   recordings.push(...added);
+  showChannels(true);
   shown = added[0];
   place = 0;
   for (const [i, recording] of added.entries()) {
@@ -162,6 +169,7 @@ async function open(files, isMicrophone = false) {
     await measure(recording);
     if (!recordings.includes(recording)) continue;
     if (recording.report) remember(recording.file.name, recording.report);
+    showChannels(false);
     if (recording === shown) {
       show(recording, place);
       element("result").focus({ preventScroll: true });
@@ -172,7 +180,7 @@ async function open(files, isMicrophone = false) {
 }
 
 async function followSettings(typed) {
-  settings = typed;
+  wanted = typed;
   for (const recording of [...recordings]) {
     if ((await measure(recording)) && recordings.includes(recording)) {
       if (recording === shown) showAgain();
@@ -207,7 +215,7 @@ function keepForOffline() {
 }
 
 async function begin() {
-  settings = settingsTyped() ?? "{}";
+  showChannels(true);
   watchFiles();
   watchEditor();
   watchSaving();
@@ -216,8 +224,8 @@ async function begin() {
   new LivePanel(engine, (file) => open([file], true));
   element("choose").disabled = element("microphone").disabled = false;
   keepForOffline();
-  // The library is there before it is needed.
-  await engine.ask("close", { key: 0 });
+  // The library is there before it is needed, and knows the rules.
+  offerRules(await engine.ask("rules"));
 }
 
 begin().catch((error) => say(`The page cannot start: ${error.message}`));

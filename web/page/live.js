@@ -3,7 +3,7 @@
 import { element, made, say } from "./dom.js";
 import { counted, fixed, plusMinus } from "./format.js";
 import { Microphone, sentenceOfRefusal } from "./microphone.js";
-import { settingsTyped } from "./settings.js";
+import { asked } from "./settings.js";
 
 // What is recorded stays in memory until it is stopped: ten minutes, 115 MB at 48 kHz.
 const MOST_S = 600;
@@ -56,7 +56,7 @@ export class LivePanel {
     this.#lines.clear();
     try {
       this.#microphone = await Microphone.open((block) => this.#hear(block), () => this.#stop());
-      await this.#engine.ask("listen", { rate: this.#microphone.rate, settings: settingsTyped() ?? "{}" });
+      await this.#engine.ask("listen", { rate: this.#microphone.rate, asked: asked() ?? "{}" });
     } catch (error) {
       await this.#microphone?.close();
       this.#microphone = null;

@@ -23,12 +23,12 @@ export class PageRecording {
   }
 
   // Asks the library; false where a later question overtook this one.
-  async measure(engine, settings) {
+  async measure(engine, wanted) {
     this.#asked += 1;
     const asked = this.#asked;
     const labels = this.isEdited ? labelTrack(this.marks) : null;
     try {
-      const answer = await engine.ask("measure", { key: this.key, file: this.file, settings, labels });
+      const answer = await engine.ask("measure", { key: this.key, file: this.file, asked: wanted, labels });
       if (asked !== this.#asked) return false;
       this.answer = answer;
       this.report = JSON.parse(answer.document);

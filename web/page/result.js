@@ -27,6 +27,14 @@ function modelLine(drop) {
   return [`Model: ${name}`, ...total, ...ballOf(drop.ball)].join("; ");
 }
 
+// What the rule says of the drop; the first line is the verdict.
+function showVerdict(recording, place) {
+  const text = recording.problem ? undefined : recording.answer.verdicts[place];
+  const lines = (text ?? "").split("\n").filter((line) => line !== "");
+  element("verdict").replaceChildren(...lines.map((line) => made("li", { textContent: line })));
+  element("verdict").dataset.outcome = text ? recording.report.rule.drops[place].outcome : "";
+}
+
 function warningsOf(recording, drop) {
   if (recording.problem) return [recording.problem.message];
   return [...(drop?.warnings ?? []), ...recording.report.warnings].map(({ message }) => message);
@@ -81,6 +89,7 @@ export function showResult(recording, place, choose) {
   element("result-file").textContent = recording.isEdited ? `${recording.file.name}, impacts edited` : recording.file.name;
   element("answer").textContent = headline(recording, drop);
   element("model").textContent = modelLine(drop);
+  showVerdict(recording, place);
   const warnings = warningsOf(recording, drop).map((text) => made("li", { textContent: sentence(text) }));
   element("warnings").replaceChildren(...warnings);
   showChoice(drops, place, choose);

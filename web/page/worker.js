@@ -28,8 +28,8 @@ function measured(request) {
   const begin = performance.now();
   const recording = recordingOf(request);
   const document = request.labels === null
-    ? recording.analyze(request.settings)
-    : recording.fit(request.labels, request.settings);
+    ? recording.analyze(request.asked)
+    : recording.fit(request.labels, request.asked);
   return {
     document,
     sheets: recording.sheets(),
@@ -38,6 +38,7 @@ function measured(request) {
     csv: recording.csv(),
     labels: recording.labels(),
     text: recording.text(),
+    verdicts: recording.verdicts(),
     tookMs: performance.now() - begin,
   };
 }
@@ -46,14 +47,15 @@ const answers = {
   start: async ({ library }) => {
     await wasm_bindgen({ module_or_path: library });
   },
+  rules: () => JSON.parse(wasm_bindgen.rules()),
   measure: measured,
   close: ({ key }) => {
     opened.get(key)?.free();
     opened.delete(key);
   },
-  listen: ({ rate, settings }) => {
+  listen: ({ rate, asked }) => {
     live?.free();
-    live = new wasm_bindgen.Live(rate, settings);
+    live = new wasm_bindgen.Live(rate, asked);
   },
   hear: ({ samples }) => (live ? { told: JSON.parse(live.hear(samples)), hears: live.hears_something() } : { told: [], hears: false }),
   wav: ({ samples, rate }) => wasm_bindgen.wav(samples, rate),

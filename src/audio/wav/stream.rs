@@ -1,6 +1,6 @@
 //! A WAV stream, read in blocks: what is held does not grow with its length.
 
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::ops::Range;
 
 use super::container::{Container, fill};
@@ -9,7 +9,7 @@ use crate::Error;
 use crate::audio::Ending;
 use crate::units::real;
 
-/// Bytes read at a time: as many as a pipe holds, and their samples still fit the cache.
+/// Most bytes read at a time: as many as a pipe holds, and their samples still fit the cache.
 const BLOCK_BYTES: usize = 1 << 16;
 
 /// A WAV stream that stands at its samples.
@@ -51,7 +51,8 @@ impl<R: Read> Stream<R> {
         &self.container
     }
 
-    /// Adds the next samples of some channels to those of each, full scale being ±1; false at the end.
+    /// Adds the next samples of some channels to those of each, full scale being ±1; false at the end. Of a pipe it gives what
+    /// has come: whoever listens live must not wait for a whole block.
     ///
     /// # Errors
     /// [`Error::Io`] if reading fails.
@@ -65,8 +66,8 @@ impl<R: Read> Stream<R> {
         }
         let wanted =
             usize::try_from(self.left).map_or(self.bytes.len(), |left| left.min(self.bytes.len()));
-        let got = fill(&mut self.source, &mut self.bytes[..wanted])?;
         let frame_bytes = self.container.frame_bytes();
+        let got = some(&mut self.source, &mut self.bytes[..wanted], frame_bytes)?;
         self.left -= got as u64;
         self.torn_bytes = got % frame_bytes;
         self.frames += (got / frame_bytes) as u64;
@@ -119,5 +120,61 @@ impl<R: Read> Stream<R> {
         (missing > 0).then(|| {
             format!("the file ends before its header says, by {missing} frames; the rest was read")
         })
+    }
+}
+
+/// Reads what has come and waits for the rest of its last frame; gives how many bytes that are: none at the end.
+fn some(source: &mut impl Read, buffer: &mut [u8], frame_bytes: usize) -> Result<usize, Error> {
+    let came = loop {
+        match source.read(buffer) {
+            Err(e) if e.kind() == ErrorKind::Interrupted => {}
+            result => break result?,
+        }
+    };
+    let whole = came.next_multiple_of(frame_bytes).min(buffer.len());
+    Ok(came + fill(source, &mut buffer[came..whole])?)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Cursor, Read};
+
+    use super::Stream;
+    use crate::audio::{Form, write_wav};
+
+    /// Gives so many bytes at a time.
+    struct Dripping<'a>(&'a [u8], usize);
+
+    impl Read for Dripping<'_> {
+        fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+            let most = buffer.len().min(self.1);
+            self.0.read(&mut buffer[..most])
+        }
+    }
+
+    #[test]
+    fn samples_are_given_as_they_come() {
+        let channels: [Vec<f32>; 2] = [1.0, -1.0].map(|sign| {
+            let sample = |i: u8| sign * f32::from(i) / 256.0;
+            (0..200).map(sample).collect()
+        });
+        let mut file = Cursor::new(Vec::new());
+        write_wav(
+            &mut file,
+            8_000,
+            &[&channels[0], &channels[1]],
+            Form::Float32,
+        )
+        .unwrap();
+        // Frames of 8 bytes: a part of one is waited for.
+        for (bytes, frames) in [(3, 1), (8, 1), (12, 2), (1_000, 125)] {
+            let mut stream = Stream::open(Dripping(file.get_ref(), bytes)).unwrap();
+            let mut heard = [Vec::new(), Vec::new()];
+            assert!(stream.append(&(0..2), &mut heard).unwrap());
+            assert_eq!(heard[0].len(), frames, "{bytes} bytes at a time");
+            while stream.append(&(0..2), &mut heard).unwrap() {}
+            assert_eq!(heard, channels, "{bytes} bytes at a time");
+            assert_eq!(stream.finish().unwrap().warnings, Vec::<String>::new());
+        }
     }
 }

@@ -101,7 +101,7 @@ fn several(out: &mut String, report: &Report, drops: &[Drop], detail: Detail) {
 
 fn judged(report: &Report, index: usize) -> Vec<String> {
     let judged = report.rule.as_ref();
-    judged.map_or_else(Vec::new, |judged| rule::entries(judged, index))
+    judged.map_or_else(Vec::new, |judged| judged.in_words(index))
 }
 
 fn line(out: &mut String, text: &str) {

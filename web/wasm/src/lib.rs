@@ -2,11 +2,18 @@
 //!
 //! What the page gets are the documents of the command: the JSON of `analyze`, its CSV, labels and SVG.
 
+#![cfg_attr(
+    test,
+    allow(clippy::unwrap_used, reason = "a failing test should panic")
+)]
+
+mod asked;
 mod live;
 mod peaks;
 mod recorded;
 mod slices;
 
+pub use asked::rules;
 pub use live::Live;
 pub use recorded::Recorded;
 

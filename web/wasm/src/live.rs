@@ -1,9 +1,10 @@
 //! The microphone: drops told while they are played.
 
-use bounce_audio::{Hears, Settings};
+use bounce_audio::Hears;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use crate::asked::Asked;
 use crate::told;
 
 /// A microphone that is listened to.
@@ -15,13 +16,13 @@ pub struct Live {
 
 #[wasm_bindgen]
 impl Live {
-    /// Listens to samples of this rate with these settings, which are those of the document.
+    /// Listens to samples of this rate with the settings that are asked for.
     ///
     /// # Errors
     /// If a setting is out of range.
     #[wasm_bindgen(constructor)]
-    pub fn new(sample_rate_hz: f64, settings: &str) -> Result<Self, JsError> {
-        let settings: Settings = serde_json::from_str(settings)?;
+    pub fn new(sample_rate_hz: f64, asked: &str) -> Result<Self, JsError> {
+        let settings = Asked::read(asked)?.settings;
         let inner = bounce_audio::Live::new(1, sample_rate_hz, &settings).map_err(told)?;
         Ok(Self { inner })
     }

@@ -1,18 +1,22 @@
 //! One recording: read once if it fits, and asked as often as a setting or an impact is changed.
 
+use std::path::Path;
+
 use bounce_audio::audio::{Recording, Stream};
 use bounce_audio::picture::sheet::sheets;
 use bounce_audio::picture::sound::Sound;
 use bounce_audio::picture::to_svg;
-use bounce_audio::recording::{Channel, fit_labelled, listen};
+use bounce_audio::recording::Request;
 use bounce_audio::report::labels::{self, Form};
+use bounce_audio::report::rule::RuleReport;
 use bounce_audio::report::text::{Detail, to_text};
 use bounce_audio::report::{csv, json};
-use bounce_audio::{Error, Report, Settings};
+use bounce_audio::{Error, Report};
 use js_sys::Function;
 use wasm_bindgen::JsError;
 use wasm_bindgen::prelude::wasm_bindgen;
 
+use crate::asked::Asked;
 use crate::peaks::Peaks;
 use crate::slices::File;
 use crate::told;
@@ -66,27 +70,38 @@ impl Recorded {
         })
     }
 
-    /// Listens with these settings, which are those of the document; gives the document of `analyze --format json`.
+    /// Listens as is asked; gives the document of `analyze --format json`.
     ///
     /// # Errors
-    /// If a setting is out of range.
-    pub fn analyze(&mut self, settings: &str) -> Result<String, JsError> {
-        let settings: Settings = serde_json::from_str(settings)?;
-        let report = listen(self.stream()?, &self.name, Channel::Best, &settings).map_err(told)?;
-        self.keep(report)
+    /// If a setting is out of range, or there is no such channel or rule.
+    pub fn analyze(&mut self, asked: &str) -> Result<String, JsError> {
+        let request = Asked::read(asked)?.request()?;
+        self.answered(&request)
     }
 
     /// Fits the impacts of these labels of Audacity and nothing else, as `analyze --impacts` does.
     ///
     /// # Errors
-    /// If a setting is out of range, or the labels are not those of a drop.
-    pub fn fit(&mut self, marked: &str, settings: &str) -> Result<String, JsError> {
-        let settings: Settings = serde_json::from_str(settings)?;
+    /// As for [`analyze`](Self::analyze), or if the labels are not those of a drop.
+    pub fn fit(&mut self, marked: &str, asked: &str) -> Result<String, JsError> {
+        let mut request = Asked::read(asked)?.request()?;
         let read = labels::read(marked.as_bytes(), Form::Audacity);
         let drops = read.and_then(|labels| labels::drops(&labels, Form::Audacity, BY_HAND_S));
-        let (drops, stream) = (drops.map_err(told)?, self.stream()?);
-        let report = fit_labelled(stream, &self.name, drops, Channel::Best, &settings);
-        self.keep(report.map_err(told)?)
+        request.labels = Some((Path::new("labels"), drops.map_err(told)?));
+        self.answered(&request)
+    }
+
+    /// What the rule that was asked for says of each drop, a line for each thing.
+    ///
+    /// # Errors
+    /// If nothing was asked yet.
+    pub fn verdicts(&self) -> Result<Vec<String>, JsError> {
+        let report = &self.answer()?.report;
+        let of_drop = |rule: &RuleReport, i| rule.in_words(i).join("\n");
+        let rule = report.rule.iter();
+        Ok(rule
+            .flat_map(|rule| (0..rule.drops.len()).map(move |i| of_drop(rule, i)))
+            .collect())
     }
 
     /// The pictures of `analyze --plot`, as SVG: one for each drop, or one that shows why there is none.
@@ -159,8 +174,9 @@ impl Recorded {
         self.answer.as_ref().ok_or_else(none)
     }
 
-    /// Keeps a report with what its pictures need; gives its document.
-    fn keep(&mut self, report: Report) -> Result<String, JsError> {
+    /// Answers a request, and keeps the report with what its pictures need; gives its document.
+    fn answered(&mut self, request: &Request<'_>) -> Result<String, JsError> {
+        let report = request.listen(self.stream()?, &self.name).map_err(told)?;
         let document = json::to_json(&report)?;
         self.answer = Some(self.heard(report)?);
         Ok(document)
