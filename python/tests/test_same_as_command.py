@@ -25,11 +25,21 @@ FILES = [
 ]
 
 
+# Opus, WebM and Matroska are left to the command: they are larger than what is left of the wheel's two megabytes.
+OPUS = [path for path in FILES if path.suffix in {".opus", ".webm", ".mka"} or "opus" in path.name]
+
+
 def test_there_are_fixtures() -> None:
-    assert len(FILES) > 60
+    assert len(FILES) > 60 and len(OPUS) > 3
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", OPUS, ids=lambda path: path.name)
+def test_opus_is_refused_with_the_command_that_converts_it(path: Path) -> None:
+    with pytest.raises(RecordingError, match=r"it is (Opus|WebM or Matroska), which is not read; ffmpeg -i IN\.\w+ OUT\.wav"):
+        bounce_audio.analyze_file(path)
+
+
+@pytest.mark.parametrize("path", sorted(set(FILES) - set(OPUS)), ids=lambda path: path.name)
 def test_a_file_gives_the_document_of_the_command(path: Path, command: Command) -> None:
     done = command("analyze", path, "--format", "json")
     if done.returncode == 2:

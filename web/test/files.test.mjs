@@ -71,8 +71,8 @@ test("the picture is that of the command, to the byte", async () => {
 });
 
 test("every fixture that can be read gives the e of the command", async () => {
-  const compressed = readdirSync(join(FIXTURES, "compressed")).filter((name) => /^drop.*\.(m4a|mp4|mp3|aac|flac|ogg)$/u.test(name));
-  assert.ok(compressed.length >= 9);
+  const compressed = readdirSync(join(FIXTURES, "compressed")).filter((name) => /^drop.*\.(m4a|mp4|mp3|aac|flac|ogg|aiff|caf|mov)$/u.test(name) && !name.includes("opus"));
+  assert.ok(compressed.length >= 13);
   for (const name of compressed) {
     const path = join(FIXTURES, "compressed", name);
     await choose(page, path);
@@ -124,6 +124,10 @@ test("a broken file is named with the reason, and the next one is read", async (
   assert.equal(await page.textContent("#result-file"), "broken.wav");
   await choose(page, join(FIXTURES, "compressed", "refused-six-channels.opus"));
   await page.waitForFunction(() => /Opus/u.test(document.getElementById("warnings").textContent));
+  // Opus is left to the command: its decoder is an eighth of the page.
+  await choose(page, join(FIXTURES, "compressed", "drop.opus"));
+  await page.waitForFunction(() => document.getElementById("result-file").textContent === "drop.opus"
+    && /it is Opus, which is not read; ffmpeg -i IN\.opus OUT\.wav/u.test(document.getElementById("warnings").textContent));
   await choose(page, wav);
   await answer(page, /67 bounces/);
 });

@@ -9,7 +9,9 @@ use symphonia::core::formats::{FormatOptions, FormatReader};
 use symphonia::core::io::{MediaSourceStream, ReadBytes};
 use symphonia::core::packet::Packet;
 use symphonia::core::units::Duration;
-use symphonia::default::formats::{AiffReader, CafReader, FlacReader, IsoMp4Reader, MkvReader};
+#[cfg(feature = "opus")]
+use symphonia::default::formats::MkvReader;
+use symphonia::default::formats::{AiffReader, CafReader, FlacReader, IsoMp4Reader};
 
 use super::edits::Edits;
 use super::index::index;
@@ -40,10 +42,19 @@ struct Indexed<'s> {
 /// Reads the next packet of any track, or the end.
 pub(super) type Read = fn(&mut dyn FormatReader) -> Result<Result<Packet, Next>, Error>;
 
+/// Says of a Matroska or `WebM` what converts it.
+#[cfg(not(feature = "opus"))]
+pub(super) fn matroska(_: Source<'_>, _: Wanted) -> Result<Opened<'_>, Error> {
+    Err(unreadable(
+        crate::audio::content::Refused::new("WebM or Matroska", "webm").sentence(),
+    ))
+}
+
 /// Opens a Matroska or `WebM` at its first byte.
 ///
 /// Its time stamps are in ms as a rule. What the encoder put before the first sample lies before 0; of Opus its header says it
 /// to the sample.
+#[cfg(feature = "opus")]
 pub(super) fn matroska(source: Source<'_>, wanted: Wanted) -> Result<Opened<'_>, Error> {
     let media = source.into_media();
     let mut reader = match MkvReader::try_new(media, FormatOptions::default()) {

@@ -1,10 +1,15 @@
 //! Opus (RFC 6716) of one or two channels, which symphonia does not decode.
 
+#[cfg(feature = "opus")]
 use opus_pure::OpusDecoder;
+#[cfg(not(feature = "opus"))]
+use without::OpusDecoder;
 
 use super::codec::refused_kind;
 use super::start::Span;
 use crate::Error;
+use crate::audio::content::Refused;
+use crate::audio::unreadable;
 
 /// Opus counts time by this rate, whatever it was made from, and is decoded to it.
 pub(super) const RATE_HZ: u32 = 48_000;
@@ -64,8 +69,12 @@ impl Opus {
     /// The decoder that a header asks for.
     ///
     /// # Errors
-    /// [`Error::Recording`] with the command that converts it if the header is broken or has more channels.
+    /// [`Error::Recording`] with the command that converts it if the header is broken or has more channels, or the feature
+    /// `opus` is off.
     pub(super) fn new(head: &[u8], ending: &'static str) -> Result<Self, Error> {
+        if cfg!(not(feature = "opus")) {
+            return Err(unreadable(Refused::new("Opus", ending).sentence()));
+        }
         let of = Head::of(head).filter(|head| head.family == 0 && matches!(head.channels, 1 | 2));
         let made = of.and_then(|head| {
             let rate_hz = RATE_HZ.cast_signed();
@@ -103,7 +112,32 @@ impl Opus {
     }
 }
 
-#[cfg(test)]
+/// What stands in the decoder's place where it is left out: there is none of it.
+#[cfg(not(feature = "opus"))]
+mod without {
+    pub(super) enum OpusDecoder {}
+
+    impl OpusDecoder {
+        pub(super) const fn new(_: i32, _: usize) -> Result<Self, ()> {
+            Err(())
+        }
+
+        pub(super) const fn decode(
+            &mut self,
+            _: &[u8],
+            _: usize,
+            _: &mut [f32],
+        ) -> Result<usize, ()> {
+            match *self {}
+        }
+
+        pub(super) const fn reset_state(&mut self) -> Result<(), ()> {
+            match *self {}
+        }
+    }
+}
+
+#[cfg(all(test, feature = "opus"))]
 mod tests {
     use super::*;
 
