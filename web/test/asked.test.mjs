@@ -55,6 +55,8 @@ async function assertVerdict(...rule) {
 
 test("every rule of the command can be chosen, and says what it asks for", async () => {
   const help = command("analyze", "--help");
+  // The library names them once it is loaded.
+  await page.waitForFunction(() => document.querySelectorAll("#rule-books option").length > 0);
   const offered = await page.locator("#rule-books option").evaluateAll((all) => all.map(({ value }) => value));
   assert.ok(offered.length >= 10);
   const [, rules] = /--rule <RULE>[\s\S]*?Possible values:\n([\s\S]*?)\n\s*\n/u.exec(help);
