@@ -274,7 +274,7 @@ class Rebounds(Document):
 
 @dataclass(frozen=True, eq=False)
 class Reach(Document):
-    """From how high the ball must fall for a bounce, counted from 1, to rise to `height_m`; None where no height is enough."""
+    """From how high the ball must fall for a bounce (from 1) to rise to `height_m`; None if 10,000 times that is too low."""
 
     bounce: int
     height_m: float

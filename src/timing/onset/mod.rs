@@ -40,13 +40,14 @@ const REST: f64 = 0.1;
 /// round. It is halved where an onset turns back by more than this share of its move before.
 const STEP: f64 = 0.5;
 const OVERSHOT: f64 = 0.7;
-/// Rounds of learning at most: a bound that no drop of the suite and no real one of those tried reaches.
+/// Rounds of learning at most: a bound that no real drop of those tried reaches.
 const LIMIT: usize = 100;
 
 /// Where impacts begin, from their priors, all in samples of the sound.
 ///
 /// The windows are laid around what is found until it stays in their middle: what lies in them then depends little on where
-/// the impacts were expected. An onset that turns back has two likely places, and its window stays between them.
+/// the impacts were expected. An onset that turns back has two likely places, and its window stays between them; so each goes
+/// one way, by half a step at least, and no farther than its prior lets it.
 pub(super) fn onsets(sound: &[f64], rate: f64, priors: &[Prior]) -> Vec<Prior> {
     let mut found = priors.to_vec();
     let mut moved: Vec<Option<f64>> = vec![Some(0.0); priors.len()];
@@ -61,8 +62,9 @@ pub(super) fn onsets(sound: &[f64], rate: f64, priors: &[Prior]) -> Vec<Prior> {
         for ((at, moved), p) in found.iter_mut().zip(&mut moved).zip(&posteriors) {
             at.position = at.position.round();
             at.std = p.std;
-            let stays = p.mean.abs() < 0.5 * real(windows.step).max(p.std);
-            let Some(before) = moved.filter(|_| !stays) else {
+            // What is no number goes nowhere.
+            let goes = p.mean.abs() >= 0.5 * real(windows.step).max(p.std);
+            let Some(before) = moved.filter(|_| goes) else {
                 continue;
             };
             let back = before * p.mean < 0.0;
