@@ -11,8 +11,11 @@ use crate::physics::{BallModel, FlightLaw};
 use crate::report::Release;
 use crate::statistics::bisected;
 
-/// Steps to the speed whose rebound is that heard: e changes so little with the speed that each wins a digit.
-const STEPS: usize = 20;
+/// The speed whose rebound is that heard is known once a step changes it by less than this share (convention): e changes so
+/// little with the speed that each wins a digit.
+const REST: f64 = 1e-12;
+/// Steps at most; a law that has not come to rest by then has no such speed.
+const LIMIT: usize = 100;
 /// Halvings of the range of a height: to 10⁻¹² of it.
 const HALVINGS: usize = 40;
 /// With drag a fall is higher than without: by no more than this factor where the ball is half as fast as it can be.
@@ -86,10 +89,14 @@ pub(super) fn release(
 /// The speed that a ball of this law leaves with `leaving` from.
 fn arrival(ball: &BallModel, leaving: f64) -> Option<f64> {
     let mut speed = leaving;
-    for _ in 0..STEPS {
-        speed = leaving / ball.restitution(speed)?.value();
+    for _ in 0..LIMIT {
+        let next = leaving / ball.restitution(speed)?.value();
+        if (next / speed - 1.0).abs() < REST {
+            return Some(next);
+        }
+        speed = next;
     }
-    (speed.is_finite() && speed > 0.0).then_some(speed)
+    None
 }
 
 /// The height of the fall that ends with this speed.

@@ -4,8 +4,9 @@ use crate::physics::BallModel;
 use crate::report::Drop;
 use crate::units::real;
 
-/// Rounds in which a line is moved onto the flights.
-const ROUNDS: usize = 30;
+/// A line lies on the flights once a round moves it by less than this share, and is moved no more after this number of rounds.
+const REST: f64 = 1e-9;
+const ROUNDS: usize = 100;
 
 /// The intervals of a ball that lie nearest to those observed in the drop that it was fitted to, by their logarithms and
 /// with these weights; fewer where the ball would not leave.
@@ -32,8 +33,10 @@ pub(super) fn nearest(ball: &BallModel, drop: &Drop, observed: &[Observed]) -> V
             sum += o.weight * (interval_s / fitted).ln();
             weights += o.weight;
         }
-        if weights > 0.0 {
-            speed *= (sum / weights).exp();
+        let moved = if weights > 0.0 { sum / weights } else { 0.0 };
+        speed *= moved.exp();
+        if moved.abs() < REST {
+            break;
         }
     }
     ball.intervals(speed).take(observed.len()).collect()

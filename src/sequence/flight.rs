@@ -27,6 +27,11 @@ pub struct FlightLaw {
 
 const STATES: usize = 3;
 
+/// The flight before another is known once a round moves it by less than this share (convention) …
+const REST: f64 = 1e-5;
+/// … and after this number of rounds at most: a bound for laws that have no flight before.
+const LIMIT: usize = 100;
+
 /// What is doubtful about two flights besides the bounce between them.
 #[derive(Debug, Clone, Copy)]
 pub struct Doubt {
@@ -122,17 +127,22 @@ impl FlightLaw {
         earlier_s * dot(&self.slopes(earlier_s), &self.state).exp()
     }
 
-    /// The flight before one of `later_s` seconds, by a few rounds of `earlier = later·exp(−ln ratio(earlier))`.
+    /// The flight before one of `later_s` seconds, by `earlier = later·exp(−ln ratio(earlier))` until it rests.
     #[must_use]
     pub fn previous_s(&self, later_s: f64) -> f64 {
         let mut earlier = later_s * (-self.state[0]).exp();
-        for _ in 0..3 {
+        for _ in 0..LIMIT {
             let ln_ratio = dot(&self.slopes(earlier), &self.state);
             // Drag lengthens the flight before by at most a factor of two here, or the step would run away.
-            earlier = later_s
+            let next = later_s
                 * (-ln_ratio)
                     .min(std::f64::consts::LN_2 - self.state[0])
                     .exp();
+            let moved = (next / earlier - 1.0).abs();
+            earlier = next;
+            if moved < REST {
+                break;
+            }
         }
         earlier
     }
@@ -197,6 +207,17 @@ mod tests {
         for pair in flights.windows(2).rev().take(10) {
             assert!((law.next_s(pair[0]) / pair[1] - 1.0).abs() < 0.01);
             assert!((law.previous_s(pair[1]) / pair[0] - 1.0).abs() < 0.01);
+        }
+    }
+
+    #[test]
+    fn the_flight_before_leads_to_the_one_after() {
+        let mut law = FlightLaw::prior();
+        law.state = [-0.2, 0.15, 2e-3];
+        for later_s in [0.05, 0.2, 0.4] {
+            let earlier_s = law.previous_s(later_s);
+            let off = law.next_s(earlier_s) / later_s - 1.0;
+            assert!(off.abs() < 2e-5, "{later_s}: {off}");
         }
     }
 
