@@ -12,7 +12,7 @@ const PEAK_WITHIN_S: f64 = 2e-3;
 const LEAD_S: f64 = 0.5e-3;
 /// Edges rest once none that is clear moves by more than this share of its standard error, against the others (convention).
 const REST: f64 = 0.1;
-/// Rounds at most: a bound for edges that are hardly clear, which may come to rest very slowly.
+/// Rounds at most: most drops have faint edges that go to and fro by a sample until then.
 const LIMIT: usize = 100;
 
 /// Samples of an edge before the onset.
