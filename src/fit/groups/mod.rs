@@ -1,11 +1,14 @@
 //! Groups of drops compared: means at one speed, the scatter within drops, between drops and between groups told apart, and
 //! which differences chance does not explain.
 
+mod weighted;
+
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::{Estimate, student};
 use crate::physics::priors::SPEED_EXPONENT_BEYOND;
 use crate::units::real;
+use weighted::{Fit, Sums};
 
 /// Speeds that differ by less than this factor, as its logarithm, are one speed: by the exponents of real balls e then
 /// differs by less than 0.0025 of itself.
@@ -77,25 +80,6 @@ pub struct Groups {
     pub freedom: usize,
     /// Each pair of groups.
     pub differences: Vec<Difference>,
-}
-
-/// Sums of one group under some weights.
-#[derive(Debug, Clone, Copy)]
-struct Sums {
-    weight: f64,
-    x: f64,
-    y: f64,
-}
-
-/// A fit of a mean for each group and a slope for all.
-#[derive(Debug, Clone)]
-struct Fit {
-    sums: Vec<Sums>,
-    slope: f64,
-    /// Σw(x − x̄)² within groups; 0 where there is no slope.
-    lever: f64,
-    /// Σw·(value − fit)².
-    square: f64,
 }
 
 impl Groups {
@@ -319,64 +303,6 @@ impl Fitted {
             freedom: self.freedom,
             differences: corrected(differences),
         }
-    }
-}
-
-impl Fit {
-    fn of(members: &[Member], count: usize, weights: &[f64], x0: f64, sloped: bool) -> Self {
-        let x = |m: &Member| m.ln_speed.unwrap_or(x0) - x0;
-        let of_group = |g: usize| {
-            let own = || {
-                members
-                    .iter()
-                    .zip(weights)
-                    .filter(move |(m, _)| m.group == g)
-            };
-            let weight: f64 = own().map(|(_, w)| w).sum();
-            let mean =
-                |of: &dyn Fn(&Member) -> f64| own().map(|(m, w)| w * of(m)).sum::<f64>() / weight;
-            Sums {
-                weight,
-                x: mean(&x),
-                y: mean(&|m| m.value),
-            }
-        };
-        let sums: Vec<Sums> = (0..count).map(of_group).collect();
-        let off = |m: &Member| (x(m) - sums[m.group].x, m.value - sums[m.group].y);
-        let (mut lever, mut product) = (0.0, 0.0);
-        for (m, w) in members.iter().zip(weights).filter(|_| sloped) {
-            let (x, y) = off(m);
-            lever += w * x * x;
-            product += w * x * y;
-        }
-        let slope = if lever > 0.0 { product / lever } else { 0.0 };
-        let residual = |(m, w): (&Member, &f64)| {
-            let (x, y) = off(m);
-            w * (y - slope * x).powi(2)
-        };
-        let square = members.iter().zip(weights).map(residual).sum();
-        Self {
-            sums,
-            slope,
-            lever,
-            square,
-        }
-    }
-
-    /// τ², by what the residuals exceed their claimed errors.
-    fn between(&self, members: &[Member], weights: &[f64], freedom: usize) -> f64 {
-        let total: f64 = weights.iter().sum();
-        let squares = |g: usize| -> f64 {
-            let own = members.iter().zip(weights).filter(|(m, _)| m.group == g);
-            own.map(|(_, w)| w * w).sum()
-        };
-        let lost: f64 = self
-            .sums
-            .iter()
-            .zip(0..)
-            .map(|(s, g)| squares(g) / s.weight)
-            .sum();
-        ((self.square - real(freedom)) / (total - lost)).max(0.0)
     }
 }
 
