@@ -52,17 +52,6 @@ impl Joint<'_> {
         }
     }
 
-    /// The sound from `before` samples before each impact on, the others taken out.
-    pub(super) fn surroundings(&self, before: usize, length: usize) -> Vec<Vec<f64>> {
-        let around = |i: usize| {
-            let begin = self.places[i].position - real(before);
-            let mut sound = shifted(&self.started.sound, begin, length);
-            self.take_out_others(i, begin, &mut sound);
-            sound
-        };
-        (0..self.places.len()).map(around).collect()
-    }
-
     /// The sound that begins `back` samples before the window of an impact, and its variance; none where the impact before
     /// still rings or nothing was recorded.
     pub(super) fn before(

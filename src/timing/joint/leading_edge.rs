@@ -1,8 +1,10 @@
-//! Leading edges: the beginnings of the sounds, which are the same however long the contact lasts.
+//! Leading edges: the beginnings of the sounds, which depend least on how long the contact lasts.
 
 use super::alternate::Joint;
-use super::normal_equations::NormalEquations;
-use crate::signal::interpolate::{KERNEL, shifted, slope};
+use super::curve::Value;
+use super::time_walk::TimeWalk;
+use crate::linalg::{Cholesky, dot};
+use crate::signal::interpolate::{KERNEL, interpolated, shifted, slope};
 use crate::signal::template::aligned::{Cut, mean};
 use crate::units::{real, samples_in};
 
@@ -10,118 +12,149 @@ use crate::units::{real, samples_in};
 const PEAK_WITHIN_S: f64 = 2e-3;
 /// An edge starts this long before the onset, in seconds.
 const LEAD_S: f64 = 0.5e-3;
-/// Edges rest once none that is clear moves by more than this share of its standard error, against the others (convention).
-const REST: f64 = 0.1;
-/// Rounds at most: most drops have faint edges that go to and fro by a sample until then.
-const LIMIT: usize = 100;
+/// Least scatter of the edges of single impacts, in seconds: modes do not begin quite alike.
+const SCATTER_S: f64 = 3e-6;
 
-/// Samples of an edge before the onset.
-fn lead(joint: &Joint<'_>) -> usize {
-    samples_in(LEAD_S, joint.started.rate).min(joint.template.before)
+/// Where an edge begins and where it ends, as shares of the greatest value.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Extent {
+    pub beginning: f64,
+    pub end: f64,
 }
 
-/// Samples of an edge that ends at a share of the greatest value.
-pub(super) fn edge_length(joint: &Joint<'_>, share: f64) -> Option<usize> {
-    let onset = joint.template.before;
-    let within = samples_in(PEAK_WITHIN_S, joint.started.rate);
-    let mean = joint.template.mean();
-    let near = mean.iter().take(onset + within);
-    let peak = near.fold(0.0, |m: f64, s| m.max(s.abs()));
-    let end = mean.iter().position(|s| s.abs() >= share * peak)? + 1;
-    (end + lead(joint)).checked_sub(onset).filter(|&l| l > 3)
+/// How edges go with the contact.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Course {
+    /// How much later than its match each begins.
+    pub walk: TimeWalk,
+    /// Relative change of the time that an edge takes, over that of the contact: 0 where all edges are alike, 1 where they are
+    /// as slow as the contact is long.
+    pub slowing: f64,
 }
 
-/// The leading edges of all impacts, each matched with their mean.
-pub(super) struct LeadingEdges {
-    /// Each impact's sound, the others taken out, with a margin on both sides.
-    sounds: Vec<Vec<f64>>,
-    /// Position of each edge in its sound, and its amplitude.
-    positions: Vec<f64>,
-    amplitudes: Vec<f64>,
-    /// Position at first, in its sound and in the stretch.
-    first: f64,
-    origins: Vec<f64>,
+/// The leading edges of all impacts.
+pub(super) struct LeadingEdges<'a> {
+    joint: &'a Joint<'a>,
     /// Samples of an edge, before the onset and in all.
     lead: usize,
-    pub length: usize,
-    /// Standard deviations of the noise by which an edge has to stand out.
-    clear: f64,
-    /// Whether an edge is still where its sound begins. One unlike the others would move on for ever, and the mean with it.
-    begins: Vec<bool>,
+    length: usize,
+    /// Where an edge begins, in samples of it: from there on one is slower than another.
+    beginning: f64,
 }
 
-impl LeadingEdges {
-    pub(super) fn of(joint: &Joint<'_>, share: f64, clear: f64) -> Option<Self> {
-        let lead = lead(joint);
-        let length = edge_length(joint, share)?;
-        let margin = samples_in(LEAD_S, joint.started.rate) + KERNEL;
-        let first = real(lead + margin);
-        let sounds = joint.surroundings(lead + margin, length + 2 * margin + KERNEL);
+/// What a step of least squares says of the edges.
+pub(super) struct Step {
+    /// How far each lies from its impact's match, in samples, if it is as slow as was taken.
+    pub times: Vec<Value>,
+    /// Time that each takes over that of the mean, less 1, wherever it lies.
+    pub slowness: Vec<Value>,
+    /// Samples by which an edge is placed too late for each unit of slowness that it was taken to have too little.
+    pub late: f64,
+}
+
+impl<'a> LeadingEdges<'a> {
+    /// Edges of the extent that the template has; none if they are too short to be matched.
+    pub(super) fn of(joint: &'a Joint<'a>, extent: Extent) -> Option<Self> {
+        let rate = joint.started.rate;
+        let onset = joint.template.before;
+        let lead = samples_in(LEAD_S, rate).min(onset);
+        let template = joint.template.mean();
+        let near = template
+            .iter()
+            .take(onset + samples_in(PEAK_WITHIN_S, rate));
+        let peak = near.fold(0.0, |m: f64, s| m.max(s.abs()));
+        let end = template.iter().position(|s| s.abs() >= extent.end * peak)? + 1;
+        let length = (end + lead).checked_sub(onset).filter(|&l| l > 3)?;
+        let beginning = crossing(template, extent.beginning * peak)?;
         Some(Self {
-            positions: vec![first; sounds.len()],
-            amplitudes: joint.places.iter().map(|i| i.amplitude).collect(),
-            begins: vec![true; sounds.len()],
-            origins: joint.places.iter().map(|i| i.position).collect(),
-            sounds,
-            first,
+            joint,
             lead,
             length,
-            clear,
+            beginning: beginning - real(onset - lead),
         })
     }
 
-    /// Positions in the stretch and their standard errors, in samples, of those that are clear.
-    pub(super) fn aligned(&mut self) -> Vec<Option<(f64, f64)>> {
-        let mut stds = vec![f64::INFINITY; self.sounds.len()];
-        for _ in 0..LIMIT {
-            let moves = self.moves(&mut stds);
-            let weighted = moves.iter().zip(&stds).map(|(m, std)| (m, std.powi(-2)));
-            let (sum, weight) = weighted.fold((0.0, 0.0), |(s, w), (m, by)| (s + m * by, w + by));
-            // Matching with their own mean leaves a shift that is common to all unmeasured.
-            let common = if weight > 0.0 { sum / weight } else { 0.0 };
-            for ((p, begins), m) in self.positions.iter_mut().zip(&mut self.begins).zip(&moves) {
-                *p += m - common;
-                *begins &= (*p - self.first).abs() <= real(self.lead);
-            }
-            let mut each = moves.iter().zip(&stds);
-            if each.all(|(m, std)| (m - common).abs() <= REST * std) {
-                break;
-            }
-        }
-        let moved = self.positions.iter().map(|p| p - self.first);
-        let places = self.origins.iter().zip(moved).map(|(o, m)| o + m);
-        let clear = |(place, std): (f64, f64)| std.is_finite().then_some((place, std));
-        places.zip(stds).map(clear).collect()
-    }
-
-    /// One step of all edges towards their mean, in samples; their standard errors, infinite where an edge is not clear.
-    fn moves(&mut self, stds: &mut [f64]) -> Vec<f64> {
-        let noise = vec![1.0; self.length];
-        let cuts = self.cuts();
-        let beginning = cuts.iter().zip(&self.begins).filter(|(_, begins)| **begins);
-        let shape = mean(&beginning.map(|(cut, _)| cut.clone()).collect::<Vec<Cut>>());
-        let slopes = slope(&shape);
-        let mut moves = Vec::with_capacity(cuts.len());
-        for (i, cut) in cuts.iter().enumerate() {
-            let normal = NormalEquations::of(&cut.sound, &noise, &shape, &slopes);
-            let (amplitude, moved, std) = normal.solve(self.amplitudes[i]);
-            self.amplitudes[i] = amplitude.max(0.3 * self.amplitudes[i]);
-            let is_clear = self.begins[i] && normal.clearness(amplitude) >= self.clear;
-            stds[i] = if is_clear { std } else { f64::INFINITY };
-            moves.push(moved.clamp(-1.0, 1.0));
-        }
-        moves
-    }
-
-    /// The edges at their positions.
-    fn cuts(&self) -> Vec<Cut> {
-        let places = self.sounds.iter().zip(&self.positions);
-        let cuts = places
-            .zip(&self.amplitudes)
-            .map(|((s, p), &amplitude)| Cut {
-                amplitude,
-                sound: shifted(s, p - real(self.lead), self.length + KERNEL),
+    /// A step of least squares from where a course has all edges towards their mean; none where that has no slope.
+    ///
+    /// Edges move together and none by itself: a faint one has many crests of noise to rest on, and those near where it began
+    /// would be found too often.
+    pub(super) fn step(&self, course: &Course) -> Option<Step> {
+        let cuts = self.cuts(course);
+        // With what lies on both sides, or the slope would be wrong at the ends.
+        let around = mean(&cuts);
+        let slopes = slope(&around);
+        let inside = KERNEL..KERNEL + self.length;
+        let (shape, slopes) = (&around[inside.clone()], &slopes[inside.clone()]);
+        let spread = slopes.iter().enumerate();
+        let spread: Vec<f64> = spread
+            .map(|(k, d)| (real(k) - self.beginning) * d)
+            .collect();
+        let parts = [shape, slopes, &spread];
+        let products = parts.map(|a| parts.map(|b| dot(a, b)));
+        let (placed, all) = (Cholesky::of(&products, 2)?, Cholesky::of(&products, 3)?);
+        let [time_std, slow_std] = [placed.inverse()[1][1].sqrt(), all.inverse()[2][2].sqrt()];
+        // Least squares are linear in the time only as far as the shape is.
+        let linear = (products[0][0] / products[1][1]).sqrt();
+        let started = self.joint.started;
+        let (mut times, mut slowness) = (Vec::new(), Vec::new());
+        let heard = cuts.iter().zip(&started.contact_stretches);
+        for (cut, &contact_stretch) in heard.filter(|(cut, _)| cut.amplitude > 0.0) {
+            let found = parts.map(|part| dot(part, &cut.sound[inside.clone()]) / cut.amplitude);
+            let later = (-placed.solve(&found)[1]).clamp(-linear, linear);
+            let slower = -all.solve(&found)[2];
+            let taken = self.slowness(contact_stretch, course);
+            let std = taken * time_std / cut.amplitude;
+            times.push(Value {
+                contact_stretch,
+                value: course.walk.shift(contact_stretch) + taken * later,
+                std: std.hypot(SCATTER_S * started.rate),
             });
+            slowness.push(Value {
+                contact_stretch,
+                value: taken * (1.0 + slower) - 1.0,
+                std: taken * slow_std / cut.amplitude,
+            });
+        }
+        Some(Step {
+            times,
+            slowness,
+            late: placed.solve(&products[2])[1],
+        })
+    }
+
+    /// Time that an edge takes over that of the mean.
+    fn slowness(&self, contact_stretch: f64, course: &Course) -> f64 {
+        1.0 + course.slowing * contact_stretch / self.joint.started.mean_contact()
+    }
+
+    /// The edges where a course has them, the other impacts taken out, each as fast as the mean, with a margin on both sides.
+    fn cuts(&self, course: &Course) -> Vec<Cut> {
+        let started = self.joint.started;
+        let each = self.joint.places.iter().zip(&started.contact_stretches);
+        let cuts = each.enumerate().map(|(i, (place, &contact_stretch))| {
+            let begin = place.position + course.walk.shift(contact_stretch) - real(self.lead);
+            let slowness = self.slowness(contact_stretch, course);
+            let length = self.length + 2 * KERNEL;
+            let at =
+                |k: usize| self.beginning + slowness * (real(k) - real(KERNEL) - self.beginning);
+            let first = at(0).floor() - real(KERNEL);
+            let reach = samples_in(1.0, at(length) - first) + KERNEL;
+            let mut sound = shifted(&started.sound, begin + first, reach);
+            self.joint.take_out_others(i, begin + first, &mut sound);
+            let sound = (0..length).map(|k| interpolated(&sound, at(k) - first));
+            Cut {
+                amplitude: place.amplitude,
+                sound: sound.collect(),
+            }
+        });
         cuts.collect()
     }
+}
+
+/// Where a sound first reaches a size, between its samples.
+fn crossing(sound: &[f64], size: f64) -> Option<f64> {
+    let after = sound.iter().position(|s| s.abs() >= size)?;
+    let reached = sound[after].abs();
+    let before = after.checked_sub(1).map_or(0.0, |k| sound[k].abs());
+    Some(real(after) - (reached - size) / (reached - before))
 }

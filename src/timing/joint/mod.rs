@@ -23,6 +23,8 @@
 
 mod align;
 mod alternate;
+mod curve;
+mod damping;
 mod interference;
 mod leading_edge;
 mod matched_search;
@@ -34,6 +36,7 @@ mod step;
 #[cfg(test)]
 mod tests;
 mod time_walk;
+mod walk_by_edges;
 
 use super::onset;
 use crate::impact::Impact;

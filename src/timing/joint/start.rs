@@ -106,6 +106,11 @@ impl Started {
         }
     }
 
+    /// The mean contact over that of the first impact: what its contact stretch lacks to 1.
+    pub(super) fn mean_contact(&self) -> f64 {
+        1.0 - self.contact_stretches.first().copied().unwrap_or(0.0)
+    }
+
     /// [`farthest`] for impact `i`.
     pub(super) fn farthest(&self, i: usize) -> f64 {
         farthest(&self.flights, i)

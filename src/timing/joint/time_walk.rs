@@ -2,18 +2,18 @@
 
 use super::align::Aligned;
 use super::alternate::Joint;
-use super::leading_edge::{LeadingEdges, edge_length};
+use super::curve::{Curve, in_std};
 use super::start::Started;
-use crate::signal::template::average::factors;
-use crate::statistics::{MAD_TO_STD, upper_median};
+use super::walk_by_edges::walk_by_edges;
+use crate::units::real;
 
 /// The correction of the positions for time walk, so that they stand at the touch and not at a constant share of the
 /// contact: `c₁·u + c₂·u²` samples for a contact stretch u. A longer contact makes c₁; where components were learnt in u and
 /// u², the positions are undetermined by as much of both, and the leading edges determine that too.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct TimeWalk {
-    terms: [f64; 2],
-    covariance: [[f64; 2]; 2],
+    pub terms: [f64; 2],
+    pub covariance: [[f64; 2]; 2],
 }
 
 impl TimeWalk {
@@ -34,17 +34,40 @@ impl TimeWalk {
             .sqrt()
     }
 
+    /// From a curve without its level; its slope has another standard error besides, in samples.
+    pub(super) fn of(curve: &Curve, slope_std: f64) -> Self {
+        let [_, slope, bend] = curve.coefficients;
+        let [_, [_, a, b], [_, _, c]] = curve.covariance;
+        Self {
+            terms: [slope, bend],
+            covariance: [[a + slope_std * slope_std, b], [b, c]],
+        }
+    }
+
     /// Greatest distance of its terms from those of another, in its own standard errors.
-    fn moved_from(&self, other: &Self) -> f64 {
-        let moved = (0..2).map(|k| {
-            let moved = (self.terms[k] - other.terms[k]).abs();
-            if moved > 0.0 {
-                moved / self.covariance[k][k].sqrt()
-            } else {
-                0.0
-            }
-        });
+    pub(super) fn moved_from(&self, other: &Self) -> f64 {
+        let moved =
+            (0..2).map(|k| in_std(self.terms[k] - other.terms[k], self.covariance[k][k].sqrt()));
         moved.fold(0.0, f64::max)
+    }
+
+    /// The mean of some; by as much as they scatter, each may be wrong.
+    pub(super) fn mean(of: &[Self]) -> Self {
+        let mut mean = Self::default();
+        for walk in of {
+            for (m, term) in mean.terms.iter_mut().zip(walk.terms) {
+                *m += term / real(of.len());
+            }
+        }
+        for walk in of {
+            let off: [f64; 2] = std::array::from_fn(|k| walk.terms[k] - mean.terms[k]);
+            for (i, row) in mean.covariance.iter_mut().enumerate() {
+                for (j, c) in row.iter_mut().enumerate() {
+                    *c += (walk.covariance[i][j] + off[i] * off[j]) / real(of.len());
+                }
+            }
+        }
+        mean
     }
 
     /// From the fastest to the slowest impact: the shift and its standard error.
@@ -58,23 +81,10 @@ impl TimeWalk {
 const FEWEST: usize = 5;
 const FEWEST_LINEAR: usize = 8;
 const FEWEST_SQUARE: usize = 12;
-/// Shares of the greatest value at which a leading edge ends. Each is matched from the places of the one before: the longest
-/// edge has the most information, but the crests of loud impacts may be clipped.
-const SHARES: [f64; 3] = [1.0, 0.8, 0.6];
-/// Standard deviations by which the edges used stand out: those of all impacts first, then the clear ones alone, as faint
-/// ones may match at a wrong crest.
-const CLEAR: [f64; 2] = [f64::NEG_INFINITY, 10.0];
 /// Standard errors by which a time walk differs from 0 at least …
 const SIGNIFICANT: f64 = 4.0;
 /// … and by which one is hinted at where all sounds were taken to be alike, so that the dearer template is tried.
 const HINT: f64 = 2.0;
-/// Least scatter of the edges of single impacts, in seconds: modes do not begin quite alike.
-const SCATTER_S: f64 = 3e-6;
-/// Robust averaging ends once the curve moves by no more than this share of its own standard error (convention) …
-const REST: f64 = 0.05;
-/// … or after this number of rounds: five times the most seen, on the suite and on real recordings.
-const LIMIT: usize = 100;
-
 /// The impacts refined, with their correction for time walk.
 #[derive(Debug)]
 pub(super) struct Corrected<'a> {
@@ -130,169 +140,17 @@ fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, 
     let more = [FEWEST_LINEAR, FEWEST_SQUARE];
     let components = 1 + more.iter().filter(|&&n| count >= n).count();
     let mut joint = Joint::of(started, aligned.clone(), components);
-    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it. A round shows
-    // whether more is worth its time.
-    let mut heads = joint.heads();
-    if !joint.round(&mut heads) {
-        walk(&joint, HINT)?;
-        joint.settle();
-    }
+    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it.
+    joint.settle();
     let walk = walk(&joint, SIGNIFICANT)?;
     Some((joint, walk))
 }
 
-/// The time walk, if slow impacts match late by so many standard errors by a leading edge, of all impacts or of the clear
-/// ones.
+/// The time walk, if slow impacts match late by so many standard errors by their leading edges.
 fn walk(joint: &Joint<'_>, significant: f64) -> Option<TimeWalk> {
-    let by = |clear| {
-        let mut pairs = SHARES.windows(2);
-        pairs.find_map(|pair| walk_by_edges(joint, clear, pair, significant))
-    };
-    CLEAR.into_iter().find_map(by)
-}
-
-/// The time walk by the edges that end at the shorter of two shares, of impacts that stand out by `clear`; none where it is
-/// not significant.
-fn walk_by_edges(
-    joint: &Joint<'_>,
-    clear: f64,
-    shares: &[f64],
-    significant: f64,
-) -> Option<TimeWalk> {
-    let &[longer, shorter] = shares else {
-        return None;
-    };
-    let mut begins = LeadingEdges::of(joint, longer, clear)?;
-    // The longer edges give positions from which the shorter ones cannot match at another crest.
-    begins.aligned();
-    begins.length = edge_length(joint, shorter)?;
-    let places = begins.aligned();
-    let walk = fitted(joint, &places)?;
-    let known = joint.started.contact_stretches.iter().zip(&places);
-    let stretches = known.filter_map(|(&u, place)| place.map(|_| u));
-    let range = stretches.fold((0.0_f64, 0.0_f64), |(a, b), u| (a.min(u), b.max(u)));
+    let walk = walk_by_edges(joint)?;
+    let stretches = joint.started.contact_stretches.iter();
+    let range = stretches.fold((0.0_f64, 0.0_f64), |(a, b), &u| (a.min(u), b.max(u)));
     let (shift, std) = walk.whole(range);
     (shift < -significant * std).then_some(walk)
-}
-
-/// Position of the leading edge less that of the match, as a function of contact stretch, by robust least squares.
-fn fitted(joint: &Joint<'_>, begins: &[Option<(f64, f64)>]) -> Option<TimeWalk> {
-    let matched = joint.places.iter().zip(&joint.started.contact_stretches);
-    let offsets: Vec<EdgeOffset> = begins
-        .iter()
-        .zip(matched)
-        .filter_map(|(begin, (place, &contact_stretch))| {
-            let (position, std) = (*begin)?;
-            Some(EdgeOffset {
-                contact_stretch,
-                offset: position - place.position,
-                std: std.hypot(SCATTER_S * joint.started.rate),
-            })
-        })
-        .collect();
-    if offsets.len() < FEWEST {
-        return None;
-    }
-    let terms = joint.template.components.len().max(2);
-    robust_fit(&offsets, terms, LIMIT)
-}
-
-/// The curve through all values by iteratively reweighted least squares, until it converges: Cauchy's weights, for three
-/// robust standard deviations.
-fn robust_fit(values: &[EdgeOffset], terms: usize, limit: usize) -> Option<TimeWalk> {
-    let mut weights: Vec<f64> = values.iter().map(|v| 1.0 / (v.std * v.std)).collect();
-    let mut walk: Option<TimeWalk> = None;
-    for _ in 0..limit {
-        let curve = Curve::through(values, &weights, terms)?;
-        let off = |v: &EdgeOffset| (v.offset - curve.at(v.contact_stretch)) / v.std;
-        let scale = (MAD_TO_STD * upper_median(values.iter().map(|v| off(v).abs()))?).max(1.0);
-        let fitted = curve.walk(scale);
-        let rests = walk.is_some_and(|before| fitted.moved_from(&before) < REST);
-        walk = Some(fitted);
-        if rests {
-            break;
-        }
-        for (w, v) in weights.iter_mut().zip(values) {
-            *w = 1.0 / (v.std * v.std * (1.0 + (off(v) / (3.0 * scale)).powi(2)));
-        }
-    }
-    walk
-}
-
-/// Position of an impact's leading edge less that of its match, in samples: below 0 where it matches late.
-struct EdgeOffset {
-    contact_stretch: f64,
-    offset: f64,
-    std: f64,
-}
-
-/// A weighted line or parabola, with the covariance of its three coefficients.
-struct Curve {
-    coefficients: [f64; 3],
-    covariance: [[f64; 3]; 3],
-}
-
-impl Curve {
-    fn through(values: &[EdgeOffset], weights: &[f64], terms: usize) -> Option<Self> {
-        let (mut moments, mut right) = ([0.0; 5], [0.0; 3]);
-        for (v, weight) in values.iter().zip(weights) {
-            let mut power = *weight;
-            for (k, moment) in moments.iter_mut().enumerate() {
-                *moment += power;
-                if k < terms {
-                    right[k] += power * v.offset;
-                }
-                power *= v.contact_stretch;
-            }
-        }
-        let factors = factors(&moments, terms)?;
-        Some(Self {
-            coefficients: factors.solve(&right),
-            covariance: factors.inverse(),
-        })
-    }
-
-    fn at(&self, contact_stretch: f64) -> f64 {
-        let [level, slope, bend] = self.coefficients;
-        level + contact_stretch * (slope + contact_stretch * bend)
-    }
-
-    /// The curve without its level; `scale` is the ratio of the errors to those that the weights state.
-    fn walk(&self, scale: f64) -> TimeWalk {
-        let c = |i: usize, j: usize| self.covariance[i][j] * scale * scale;
-        TimeWalk {
-            terms: [self.coefficients[1], self.coefficients[2]],
-            covariance: [[c(1, 1), c(1, 2)], [c(2, 1), c(2, 2)]],
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::random::SplitMix64;
-    use crate::units::real;
-
-    #[test]
-    fn the_curve_rests_on_the_most_whatever_lies_far_off_and_twice_the_limit_changes_nothing() {
-        let mut rng = SplitMix64::new(5);
-        for terms in [2, 3] {
-            let values = (0..40).map(|i| {
-                let contact_stretch = 0.02 * real(i) - 0.4;
-                let off = if i % 8 == 0 { 60.0 } else { 0.0 };
-                let offset = 2.0 - 9.0 * contact_stretch + 0.5 * rng.normal() + off;
-                EdgeOffset {
-                    contact_stretch,
-                    offset,
-                    std: 0.5,
-                }
-            });
-            let offsets: Vec<EdgeOffset> = values.collect();
-            let walk = robust_fit(&offsets, terms, LIMIT).unwrap();
-            let (slope, std) = (walk.terms[0], walk.covariance[0][0].sqrt());
-            assert!((slope + 9.0).abs() < 3.0 * std, "{slope} ± {std}");
-            let longer = robust_fit(&offsets, terms, 2 * LIMIT).unwrap();
-            assert_eq!(walk.terms, longer.terms);
-        }
-    }
 }

@@ -1,0 +1,101 @@
+//! The time walk as the leading edges show it.
+
+use super::alternate::Joint;
+use super::curve::{Curve, REST, in_std};
+use super::damping::Damping;
+use super::leading_edge::{Course, Extent, LeadingEdges};
+use super::time_walk::TimeWalk;
+
+/// Fewest edges that a course is fitted to.
+const FEWEST: usize = 5;
+/// Extents of the edges: those of a later beginning are taken to be slower from there on, and what that changes is an error.
+const EXTENTS: [Extent; 2] = [
+    Extent {
+        beginning: 0.1,
+        end: 0.8,
+    },
+    Extent {
+        beginning: 0.2,
+        end: 0.8,
+    },
+];
+/// Slowing before anything is heard, and its standard deviation: somewhere between edges that are all alike and edges that
+/// are as slow as the contact is long.
+const SLOWING: f64 = 0.5;
+const SLOWING_STD: f64 = 0.5;
+/// Rounds in which walk and slowing are fitted, at most: more than twice the most seen.
+const LIMIT: usize = 100;
+
+/// The mean walk of edges of several extents; none where there are too few.
+pub(super) fn walk_by_edges(joint: &Joint<'_>) -> Option<TimeWalk> {
+    let mut course = Course {
+        walk: TimeWalk::default(),
+        slowing: SLOWING,
+    };
+    let mut walks = Vec::new();
+    for extent in EXTENTS {
+        course = fitted(joint, extent, course)?;
+        walks.push(course.walk);
+    }
+    Some(TimeWalk::mean(&walks))
+}
+
+/// The course of edges of an extent, from about what it is: the walk first, and then the slowing too.
+fn fitted(joint: &Joint<'_>, extent: Extent, mut course: Course) -> Option<Course> {
+    let edges = LeadingEdges::of(joint, extent)?;
+    let terms = joint.template.components.len().max(2);
+    let mean_contact = joint.started.mean_contact();
+    let mut damping = Damping::of(3);
+    let mut placed = false;
+    for _ in 0..LIMIT {
+        let step = edges.step(&course)?;
+        if step.times.len() < FEWEST {
+            return None;
+        }
+        let (slowing, std) = slowing(&Curve::robust(&step.slowness, 2)?, mean_contact);
+        let found = TimeWalk::of(
+            &Curve::robust(&step.times, terms)?,
+            step.late * std / mean_contact,
+        );
+        let slowing = if placed { slowing } else { course.slowing };
+        let rests =
+            found.moved_from(&course.walk) < REST && in_std(slowing - course.slowing, std) < REST;
+        course = damped(
+            &course,
+            &Course {
+                walk: found,
+                slowing,
+            },
+            &mut damping,
+        );
+        if rests && placed {
+            break;
+        }
+        placed |= rests;
+    }
+    Some(course)
+}
+
+/// Slowing and its standard error, by the slowness of edges and by what was known before.
+fn slowing(slowness: &Curve, mean_contact: f64) -> (f64, f64) {
+    let of_edges = (slowness.covariance[1][1] * mean_contact * mean_contact).recip();
+    let before = (SLOWING_STD * SLOWING_STD).recip();
+    let sum = of_edges * slowness.coefficients[1] * mean_contact + before * SLOWING;
+    let all = of_edges + before;
+    ((sum / all).clamp(0.0, 1.0), all.sqrt().recip())
+}
+
+/// The way from one course to another, as much of it as is not known to be too far.
+fn damped(from: &Course, to: &Course, damping: &mut Damping) -> Course {
+    let unknowns = |c: &Course| [c.walk.terms[0], c.walk.terms[1], c.slowing];
+    let (from, wanted) = (unknowns(from), unknowns(to));
+    let steps: [f64; 3] = std::array::from_fn(|k| damping.share(k) * (wanted[k] - from[k]));
+    damping.learn(steps.into_iter());
+    Course {
+        walk: TimeWalk {
+            terms: [from[0] + steps[0], from[1] + steps[1]],
+            ..to.walk
+        },
+        slowing: from[2] + steps[2],
+    }
+}
