@@ -15,12 +15,10 @@ const LEAD_S: f64 = 0.5e-3;
 /// Least scatter of the edges of single impacts, in seconds: modes do not begin quite alike.
 const SCATTER_S: f64 = 3e-6;
 
-/// Where an edge begins and where it ends, as shares of the greatest value.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Extent {
-    pub beginning: f64,
-    pub end: f64,
-}
+/// An edge ends at this share of the greatest value: the crest beyond knows little of the time, and may be clipped.
+const END: f64 = 0.8;
+/// Where an edge begins is where the straight line through its places at two shares of the greatest value reaches nothing.
+const RISE: [f64; 2] = [0.1, 0.2];
 
 /// How edges go with the contact.
 #[derive(Debug, Clone, Copy)]
@@ -38,8 +36,9 @@ pub(super) struct LeadingEdges<'a> {
     /// Samples of an edge, before the onset and in all.
     lead: usize,
     length: usize,
-    /// Where an edge begins, in samples of it: from there on one is slower than another.
+    /// Where an edge begins, in samples of it, and its standard error: from there on one is slower than another.
     beginning: f64,
+    beginning_std: f64,
 }
 
 /// What a step of least squares says of the edges.
@@ -50,11 +49,13 @@ pub(super) struct Step {
     pub slowness: Vec<Value>,
     /// Samples by which an edge is placed too late for each unit of slowness that it was taken to have too little.
     pub late: f64,
+    /// Standard error of where edges begin for each unit of contact, in samples.
+    pub late_std: f64,
 }
 
 impl<'a> LeadingEdges<'a> {
-    /// Edges of the extent that the template has; none if they are too short to be matched.
-    pub(super) fn of(joint: &'a Joint<'a>, extent: Extent) -> Option<Self> {
+    /// Edges as long as that of the template; none if it is too short to be matched.
+    pub(super) fn of(joint: &'a Joint<'a>) -> Option<Self> {
         let rate = joint.started.rate;
         let onset = joint.template.before;
         let lead = samples_in(LEAD_S, rate).min(onset);
@@ -63,14 +64,17 @@ impl<'a> LeadingEdges<'a> {
             .iter()
             .take(onset + samples_in(PEAK_WITHIN_S, rate));
         let peak = near.fold(0.0, |m: f64, s| m.max(s.abs()));
-        let end = template.iter().position(|s| s.abs() >= extent.end * peak)? + 1;
+        let end = template.iter().position(|s| s.abs() >= END * peak)? + 1;
         let length = (end + lead).checked_sub(onset).filter(|&l| l > 3)?;
-        let beginning = crossing(template, extent.beginning * peak)?;
+        let [low, high] = RISE.map(|share| crossing(template, share * peak));
+        let (low, high) = (low?, high?);
+        let ahead = RISE[0] / (RISE[1] - RISE[0]) * (high - low);
         Some(Self {
             joint,
             lead,
             length,
-            beginning: beginning - real(onset - lead),
+            beginning: low - ahead - real(onset - lead),
+            beginning_std: ahead,
         })
     }
 
@@ -119,6 +123,7 @@ impl<'a> LeadingEdges<'a> {
             times,
             slowness,
             late: placed.solve(&products[2])[1],
+            late_std: course.slowing * self.beginning_std,
         })
     }
 

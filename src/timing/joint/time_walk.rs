@@ -5,7 +5,6 @@ use super::alternate::Joint;
 use super::curve::{Curve, in_std};
 use super::start::Started;
 use super::walk_by_edges::walk_by_edges;
-use crate::units::real;
 
 /// The correction of the positions for time walk, so that they stand at the touch and not at a constant share of the
 /// contact: `c₁·u + c₂·u²` samples for a contact stretch u. A longer contact makes c₁; where components were learnt in u and
@@ -51,25 +50,6 @@ impl TimeWalk {
         moved.fold(0.0, f64::max)
     }
 
-    /// The mean of some; by as much as they scatter, each may be wrong.
-    pub(super) fn mean(of: &[Self]) -> Self {
-        let mut mean = Self::default();
-        for walk in of {
-            for (m, term) in mean.terms.iter_mut().zip(walk.terms) {
-                *m += term / real(of.len());
-            }
-        }
-        for walk in of {
-            let off: [f64; 2] = std::array::from_fn(|k| walk.terms[k] - mean.terms[k]);
-            for (i, row) in mean.covariance.iter_mut().enumerate() {
-                for (j, c) in row.iter_mut().enumerate() {
-                    *c += (walk.covariance[i][j] + off[i] * off[j]) / real(of.len());
-                }
-            }
-        }
-        mean
-    }
-
     /// From the fastest to the slowest impact: the shift and its standard error.
     fn whole(&self, (fast, slow): (f64, f64)) -> (f64, f64) {
         let shift = self.shift(slow) - self.shift(fast);
@@ -85,6 +65,7 @@ const FEWEST_SQUARE: usize = 12;
 const SIGNIFICANT: f64 = 4.0;
 /// … and by which one is hinted at where all sounds were taken to be alike, so that the dearer template is tried.
 const HINT: f64 = 2.0;
+
 /// The impacts refined, with their correction for time walk.
 #[derive(Debug)]
 pub(super) struct Corrected<'a> {

@@ -3,22 +3,11 @@
 use super::alternate::Joint;
 use super::curve::{Curve, REST, in_std};
 use super::damping::Damping;
-use super::leading_edge::{Course, Extent, LeadingEdges};
+use super::leading_edge::{Course, LeadingEdges};
 use super::time_walk::TimeWalk;
 
 /// Fewest edges that a course is fitted to.
 const FEWEST: usize = 5;
-/// Extents of the edges: those of a later beginning are taken to be slower from there on, and what that changes is an error.
-const EXTENTS: [Extent; 2] = [
-    Extent {
-        beginning: 0.1,
-        end: 0.8,
-    },
-    Extent {
-        beginning: 0.2,
-        end: 0.8,
-    },
-];
 /// Slowing before anything is heard, and its standard deviation: somewhere between edges that are all alike and edges that
 /// are as slow as the contact is long.
 const SLOWING: f64 = 0.5;
@@ -26,23 +15,13 @@ const SLOWING_STD: f64 = 0.5;
 /// Rounds in which walk and slowing are fitted, at most: more than twice the most seen.
 const LIMIT: usize = 100;
 
-/// The mean walk of edges of several extents; none where there are too few.
+/// The walk of the leading edges; none where there are too few. Where edges lie is fitted first, and then how slow they are too.
 pub(super) fn walk_by_edges(joint: &Joint<'_>) -> Option<TimeWalk> {
+    let edges = LeadingEdges::of(joint)?;
     let mut course = Course {
         walk: TimeWalk::default(),
         slowing: SLOWING,
     };
-    let mut walks = Vec::new();
-    for extent in EXTENTS {
-        course = fitted(joint, extent, course)?;
-        walks.push(course.walk);
-    }
-    Some(TimeWalk::mean(&walks))
-}
-
-/// The course of edges of an extent, from about what it is: the walk first, and then the slowing too.
-fn fitted(joint: &Joint<'_>, extent: Extent, mut course: Course) -> Option<Course> {
-    let edges = LeadingEdges::of(joint, extent)?;
     let terms = joint.template.components.len().max(2);
     let mean_contact = joint.started.mean_contact();
     let mut damping = Damping::of(3);
@@ -55,7 +34,7 @@ fn fitted(joint: &Joint<'_>, extent: Extent, mut course: Course) -> Option<Cours
         let (slowing, std) = slowing(&Curve::robust(&step.slowness, 2)?, mean_contact);
         let found = TimeWalk::of(
             &Curve::robust(&step.times, terms)?,
-            step.late * std / mean_contact,
+            (step.late * std).hypot(step.late_std) / mean_contact,
         );
         let slowing = if placed { slowing } else { course.slowing };
         let rests =
@@ -73,7 +52,7 @@ fn fitted(joint: &Joint<'_>, extent: Extent, mut course: Course) -> Option<Cours
         }
         placed |= rests;
     }
-    Some(course)
+    Some(course.walk)
 }
 
 /// Slowing and its standard error, by the slowness of edges and by what was known before.
