@@ -48,7 +48,7 @@ pub(super) struct Arguments {
     file: PathBuf,
     #[command(flatten)]
     listening: Listening,
-    /// How many threads listen to drops side by side; the result is the same for any N [default: one for each core]
+    /// How many drops to time and fit at once, 8 at most; the result is the same for any N [default: one for each core]
     #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..), allow_hyphen_values = true)]
     jobs: Option<u16>,
     /// Form of the result
@@ -107,7 +107,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         ))
         .in_file(&arguments.file));
     }
-    let workers = threads::workers(threads::count(arguments.jobs));
+    let workers = threads::workers(arguments.jobs);
     let report = if arguments.file == Path::new("-") {
         let stream = Stream::open_track(io::stdin(), track);
         let report = stream.and_then(|stream| request.listen_by(stream, "-", workers));

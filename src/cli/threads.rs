@@ -12,8 +12,13 @@ pub(super) fn count(asked: Option<u16>) -> usize {
     asked.map_or_else(cores, usize::from)
 }
 
-/// So many threads, for the whole process; where the system gives none, all is done by the one that there is.
-pub(super) fn workers(threads: usize) -> Workers {
+/// Most threads for one recording: each needs memory of its own, and more drops than that are seldom measured at once.
+const MOST: usize = 8;
+
+/// As many threads as were asked for, or one for each core, for the whole process; where the system gives none, all is done
+/// by the one that there is.
+pub(super) fn workers(asked: Option<u16>) -> Workers {
+    let threads = count(asked).min(MOST);
     let pool = ThreadPoolBuilder::new().num_threads(threads);
     if threads > 1 && pool.build_global().is_ok() {
         Workers::new(side_by_side)

@@ -28,13 +28,13 @@ const BEFORE_S: f64 = 1.0;
 const AFTER_S: f64 = 1.5;
 /// Time without a rise after which a scene is over, in seconds. Derived: a flight of 3 s rises 11 m.
 const OVER_S: f64 = 3.0;
-/// Most audio held, in bytes over all channels: with the working memory of the analysis it stays below 64 MiB.
+/// Most audio held, in bytes over all channels: with the working memory of one worker it stays below 64 MiB.
 const HELD_BYTES: usize = 20 << 20;
 /// Least audio held of any recording, in seconds: a drop has to fit. It exceeds [`HELD_BYTES`] only above 600,000 samples a
 /// second over all channels.
 const LEAST_HELD_S: f64 = 8.0;
 /// Most samples a second over all channels, such as 32 channels at 48 kHz or two at 768: with [`LEAST_HELD_S`] of them and
-/// the working memory of the analysis it stays below 256 MiB. A header may claim 4 GHz.
+/// the working memory of one worker it stays below 256 MiB. A header may claim 4 GHz.
 const MOST_SAMPLES_PER_S: f64 = 1_536_000.0;
 
 /// Listens to all channels of a recording, block after block.
