@@ -1,5 +1,6 @@
-//! Speed and memory: ten minutes of mostly silence and of all bouncing against the limit, which is reading the file in
-//! blocks and summing squares; from a minute to ten hours through a pipe; and from process start to JSON.
+//! Speed and memory, against the limit, which is reading the files in blocks and summing squares: ten minutes of mostly
+//! silence and of all bouncing; five seconds from process start to JSON; a folder of those, all cores at work. Then from a
+//! minute to ten hours through a pipe.
 //! `cargo bench --bench throughput`
 #![expect(clippy::print_stdout, reason = "a benchmark prints")]
 #![allow(clippy::unwrap_used, reason = "a failing benchmark should panic")]
@@ -17,8 +18,9 @@ use bounce_audio::{Listener, Settings};
 const DURATION_S: usize = 600;
 const RATE_HZ: usize = 44_100;
 const REPEATS: usize = 9;
-/// Processes started for the time from start to JSON.
+/// Processes started for the time from start to JSON, and recordings of a folder.
 const STARTS: usize = 20;
+const IN_FOLDER: usize = 20;
 
 /// Hiss, in which a drop of four seconds begins every `period_s`.
 fn recording(name: &str, duration_s: usize, period_s: usize) -> PathBuf {
@@ -122,32 +124,70 @@ fn through_a_pipe(wav: &[u8], minutes: usize) -> (f64, Option<f64>) {
     (start.elapsed().as_secs_f64(), memory)
 }
 
-fn main() {
-    println!("recording      analysis      limit   ratio  audio s per s  drops");
-    let recordings = [
-        ("one-drop.wav", DURATION_S),
-        ("mostly-silent.wav", 60),
-        ("dense.wav", 4),
-    ];
-    let mut paths = Vec::new();
-    for (name, period_s) in recordings {
-        let path = recording(name, DURATION_S, period_s);
-        let limit_s = median_s(REPEATS, || assert!(sum_of_squares(&path) > 0.0));
-        let mut drops = 0;
-        let own_s = median_s(REPEATS, || drops = analysis(&path));
-        #[expect(clippy::cast_precision_loss, reason = "600 s")]
-        let speed = DURATION_S as f64 / own_s;
-        println!(
-            "{:<13} {:>7.1} ms {:>7.1} ms  {:.4} {speed:>14.0} {drops:>6}",
-            name.trim_end_matches(".wav"),
-            1e3 * own_s,
-            1e3 * limit_s,
-            limit_s / own_s
-        );
-        paths.push(path);
+/// A row of the table: a case, how much sound it has, its time and that of the limit.
+fn tell(name: &str, sound_s: usize, own_s: f64, limit_s: f64, drops: usize) {
+    #[expect(clippy::cast_precision_loss, reason = "600 s")]
+    let speed = sound_s as f64 / own_s;
+    println!(
+        "{name:<13} {:>7.1} ms {:>8.2} ms  {:.4} {speed:>14.0} {drops:>6}",
+        1e3 * own_s,
+        1e3 * limit_s,
+        limit_s / own_s
+    );
+}
+
+/// Ten minutes in which a drop begins every `period_s`.
+fn ten_minutes(name: &str, period_s: usize) -> PathBuf {
+    let path = recording(&format!("{name}.wav"), DURATION_S, period_s);
+    let limit_s = median_s(REPEATS, || assert!(sum_of_squares(&path) > 0.0));
+    let mut drops = 0;
+    let own_s = median_s(REPEATS, || drops = analysis(&path));
+    tell(name, DURATION_S, own_s, limit_s, drops);
+    path
+}
+
+/// Five seconds with a drop, by a process of their own; gives the recording.
+fn from_start() -> PathBuf {
+    let path = recording("five-seconds.wav", 5, 5);
+    let limit_s = median_s(STARTS, || assert!(sum_of_squares(&path) > 0.0));
+    let file = path.display().to_string();
+    let own_s = median_s(STARTS, || {
+        let status = command(&file, Stdio::null()).wait().unwrap();
+        assert!(status.success());
+    });
+    tell("from-start", 5, own_s, limit_s, 1);
+    path
+}
+
+/// A folder of copies of a recording of five seconds.
+fn folder_of(recording: &Path) {
+    let folder = recording.with_file_name("throughput-folder");
+    fs::create_dir_all(&folder).unwrap();
+    let copies = (0..IN_FOLDER).map(|i| folder.join(format!("{i}.wav")));
+    let copies: Vec<PathBuf> = copies.collect();
+    for copy in &copies {
+        fs::copy(recording, copy).unwrap();
     }
+    let limit_s = median_s(REPEATS, || {
+        assert!(copies.iter().all(|copy| sum_of_squares(copy) > 0.0));
+    });
+    let own_s = median_s(REPEATS, || {
+        let mut batch = Command::new(env!("CARGO_BIN_EXE_bounce-audio"));
+        batch.arg("batch").arg(&folder);
+        let status = batch.stdout(Stdio::null()).stderr(Stdio::null()).status();
+        assert!(status.unwrap().success());
+    });
+    tell("folder", 5 * IN_FOLDER, own_s, limit_s, IN_FOLDER);
+}
+
+fn main() {
+    println!("recording      analysis       limit   ratio  audio s per s  drops");
+    ten_minutes("one-drop", DURATION_S);
+    let mostly_silent = ten_minutes("mostly-silent", 60);
+    ten_minutes("dense", 4);
+    folder_of(&from_start());
     println!("\nmostly silent, through a pipe\n  minutes   seconds  seconds a minute   peak MiB");
-    let wav = fs::read(&paths[1]).unwrap();
+    let wav = fs::read(mostly_silent).unwrap();
     for minutes in [1, 10, 60, 600] {
         let (seconds, memory) = through_a_pipe(&wav, minutes);
         #[expect(clippy::cast_precision_loss, reason = "600 minutes")]
@@ -155,13 +195,4 @@ fn main() {
         let memory = memory.map_or("-".to_owned(), |mib| format!("{mib:.1}"));
         println!("{minutes:>9} {seconds:>9.2} {each:>17.4} {memory:>10}");
     }
-    let short = recording("five-seconds.wav", 5, 5).display().to_string();
-    let start_s = median_s(STARTS, || {
-        let status = command(&short, Stdio::null()).wait().unwrap();
-        assert!(status.success());
-    });
-    println!(
-        "\n5 s of recording, from process start to JSON: {:.1} ms",
-        1e3 * start_s
-    );
 }

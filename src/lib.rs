@@ -107,6 +107,7 @@ mod stages {
     pub mod statistics;
     pub mod timing;
     pub mod units;
+    pub mod workers;
 }
 #[cfg(feature = "internals")]
 pub use stages::*;

@@ -11,6 +11,7 @@ use crate::report::rule::RuleReport;
 use crate::report::times::Typed;
 use crate::report::{Analysis, RecordingInfo, Report, Warning, WarningCode};
 use crate::rules::{Rule, judge};
+use crate::workers::Workers;
 
 /// Which channel is listened to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -90,13 +91,23 @@ impl Request<'_> {
     /// As for [`listen`]; [`Error::Line`] within [`Error::InFile`] for a labelled impact after the end and for a drop of which
     /// fewer than two impacts were heard.
     pub fn listen(&self, stream: Stream<'_>, name: &str) -> Result<Report, Error> {
+        self.listen_by(stream, name, Workers::default())
+    }
+
+    /// As [`listen`](Self::listen), with the work done by these.
+    pub(crate) fn listen_by(
+        &self,
+        stream: Stream<'_>,
+        name: &str,
+        workers: Workers,
+    ) -> Result<Report, Error> {
         let settings = self.settings();
         let channels = stream.channels();
         let heard = self.channel.of(channels)?;
         let sample_rate_hz = f64::from(stream.sample_rate_hz()) * settings.time_scale;
         let (encoding, lossy) = (stream.encoding(), stream.is_lossy());
         let (channel, analysis, ending) = match &self.labels {
-            None => search(stream, &heard, &settings)?,
+            None => search(stream, &heard, &settings, workers)?,
             Some((path, drops)) => fit(stream, &heard, &settings, drops, path)?,
         };
         let repairs = ending.warnings.into_iter();
@@ -184,9 +195,11 @@ fn search(
     mut stream: Stream<'_>,
     heard: &Range<usize>,
     settings: &Settings,
+    workers: Workers,
 ) -> Result<Heard, Error> {
     let rate = f64::from(stream.sample_rate_hz());
-    let mut listener = Listener::to_channels(heard.clone(), rate, settings)?;
+    let listener = Listener::to_channels(heard.clone(), rate, settings)?;
+    let mut listener = listener.with_workers(workers);
     while listener.push_with(|room| stream.append(heard, room))?? {}
     // A file without audio is no WAV to listen to: that comes before what was not found in it.
     let ending = stream.finish()?;

@@ -9,11 +9,12 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// All of src, from the bottom up, and what each may name: only what stands above its own line.
-const MAY_NAME: [(&str, &[&str]); 27] = [
+const MAY_NAME: [(&str, &[&str]); 28] = [
     ("error.rs", &[]),
     ("words.rs", &[]),
     ("units", &[]),
     ("random.rs", &[]),
+    ("workers.rs", &[]),
     ("event.rs", &[]),
     ("impact.rs", &["words"]),
     ("linalg.rs", &["units"]),
@@ -67,10 +68,14 @@ const MAY_NAME: [(&str, &[&str]); 27] = [
             "timing",
             "fit",
             "report",
+            "workers",
         ],
     ),
     ("audio", &["units"]),
-    ("recording.rs", &["report", "rules", "analysis", "audio"]),
+    (
+        "recording.rs",
+        &["workers", "report", "rules", "analysis", "audio"],
+    ),
     ("plot", &[]),
     ("picture", &["units", "physics", "report", "plot"]),
     ("synth", &["units", "random", "physics"]),
@@ -82,6 +87,7 @@ const MAY_NAME: [(&str, &[&str]); 27] = [
         "cli",
         &[
             "units",
+            "workers",
             "statistics",
             "timing",
             "fit",

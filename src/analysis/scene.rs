@@ -12,6 +12,7 @@ use crate::report::Rejected;
 use crate::sequence::{self, Chain, Found, is_echo_of};
 use crate::signal::sound::Sound;
 use crate::units::frame_time_s;
+use crate::workers::Workers;
 
 /// Range of a scene in its recording.
 #[derive(Debug, Clone, Copy)]
@@ -64,15 +65,20 @@ pub(super) struct Chained<'a> {
 }
 
 impl<'a> Chained<'a> {
-    pub(super) fn of(channels: &[&'a [f32]], bounds: &Bounds, detector: &Detector) -> Self {
+    pub(super) fn of(
+        channels: &[&'a [f32]],
+        bounds: &Bounds,
+        detector: &Detector,
+        workers: Workers,
+    ) -> Self {
         let rate = detector.sample_rate_hz();
         let sound = |channel: usize| Sound {
             samples: channels[channel],
             sample_rate_hz: rate,
             start_s: frame_time_s(bounds.first, rate),
         };
-        let heard = (0..channels.len()).map(|channel| detector.events(&sound(channel)));
-        let mut heard: Vec<Vec<Event>> = heard.collect();
+        let sounds = (0..channels.len()).map(sound).collect();
+        let mut heard = workers.map(sounds, |sound| detector.events(&sound));
         let clarities: Vec<f64> = heard.iter().map(|events| clarity(events)).collect();
         let channel = clearest(&clarities);
         let stretch = Stretch {
@@ -101,6 +107,7 @@ impl<'a> Chained<'a> {
         reported_s: &[f64],
         detector: &Detector,
         settings: &Settings,
+        workers: Workers,
     ) -> Result<SceneResult, Error> {
         let Self {
             stretch,
@@ -128,16 +135,18 @@ impl<'a> Chained<'a> {
         let weak = weak_before(edge.final_until_s, &events, &found);
         let new = found.drops.into_iter();
         let new = new.filter(|chain| !edge.is_deferred(chain) && !is_reported(chain, reported_s));
-        let kept = followed(&stretch, new);
+        let kept = followed(&stretch, new.collect(), workers);
         let spans_s: Vec<(f64, f64)> = kept.iter().map(|k| k.chain.span_s()).collect();
-        let drops = kept.into_iter().enumerate().map(|(i, followed)| {
+        let drops = workers.map(kept.into_iter().enumerate().collect(), |(i, followed)| {
             let from_s = explained_until_s(i, &spans_s, reported_s);
             let louder = louder_before::warning(&followed.chain, &events, from_s);
             let mut measured = drop::measure(&stretch, followed, channel, settings)?;
             measured.warnings.extend(louder);
             Ok(measured)
         });
-        let drops = drops.collect::<Result<Vec<Measured>, Error>>()?;
+        let drops = drops
+            .into_iter()
+            .collect::<Result<Vec<Measured>, Error>>()?;
         Ok(SceneResult {
             drops,
             few,
@@ -154,8 +163,8 @@ impl<'a> Chained<'a> {
 }
 
 /// Chains with their ends, in order of time, but for those that turn out to be the echo of another.
-fn followed<'a>(stretch: &Stretch<'a>, chains: impl Iterator<Item = Chain>) -> Vec<Followed<'a>> {
-    let mut followed: Vec<Followed<'a>> = chains.map(|c| tail::follow(stretch, c)).collect();
+fn followed<'a>(stretch: &Stretch<'a>, chains: Vec<Chain>, workers: Workers) -> Vec<Followed<'a>> {
+    let mut followed = workers.map(chains, |chain| tail::follow(stretch, chain));
     followed.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
     let mut kept: Vec<Followed<'a>> = Vec::new();
     for new in followed {

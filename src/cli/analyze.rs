@@ -3,7 +3,7 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::{Args, ValueEnum, value_parser};
 
 use super::Outcome;
 use super::document::{DocumentArguments, pictures, section};
@@ -13,6 +13,7 @@ use super::listen::{Listening, listen_to_file};
 use super::picture::{Target, check_readable_twice, draw_sheets, figures};
 use super::predict::PredictArguments;
 use super::rule::RuleArguments;
+use super::threads;
 use crate::Error;
 use crate::audio::Stream;
 use crate::plot::Figure;
@@ -47,6 +48,9 @@ pub(super) struct Arguments {
     file: PathBuf,
     #[command(flatten)]
     listening: Listening,
+    /// How many drops to time and fit at once, 8 at most; the result is the same for any N [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = value_parser!(u16).range(1..), allow_hyphen_values = true)]
+    jobs: Option<u16>,
     /// Form of the result
     #[arg(long, value_enum, default_value_t = Format::Text)]
     format: Format,
@@ -103,12 +107,13 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         ))
         .in_file(&arguments.file));
     }
+    let workers = threads::workers(arguments.jobs);
     let report = if arguments.file == Path::new("-") {
         let stream = Stream::open_track(io::stdin(), track);
-        let report = stream.and_then(|stream| request.listen(stream, "-"));
+        let report = stream.and_then(|stream| request.listen_by(stream, "-", workers));
         report.map_err(|e| e.in_file("standard input"))?
     } else {
-        listen_to_file(&arguments.file, track, &request)?
+        listen_to_file(&arguments.file, track, &request, workers)?
     };
     arguments.labels.write(&report)?;
     if let Some(target) = target {

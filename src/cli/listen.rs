@@ -11,6 +11,7 @@ use crate::audio::{Stream, Track};
 use crate::recording::{Channel, Request};
 use crate::report::Report;
 use crate::timing::Timing;
+use crate::workers::Workers;
 
 /// What is known beforehand and how to listen.
 #[derive(Debug, Clone, Args)]
@@ -105,9 +106,10 @@ pub(super) fn listen_to_file(
     path: &Path,
     track: Track,
     request: &Request<'_>,
+    workers: Workers,
 ) -> Result<Report, Error> {
     let stream = Stream::open_file_track(path, track)?;
-    let report = request.listen(stream, &name(path));
+    let report = request.listen_by(stream, &name(path), workers);
     report.map_err(|e| e.in_file(path))
 }
 

@@ -23,6 +23,7 @@ mod sha256;
 mod solve;
 mod synth;
 mod terminal;
+mod threads;
 
 use std::ffi::OsString;
 use std::process::ExitCode;

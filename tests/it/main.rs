@@ -40,6 +40,7 @@ mod plot;
 mod readme;
 mod rebound;
 mod schema;
+mod side_by_side;
 mod solve;
 mod synth;
 mod synthetic;

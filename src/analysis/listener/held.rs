@@ -1,5 +1,7 @@
 //! The audio that a listener holds: all that the scene that goes on, or the next one, may need.
 
+use std::mem;
+
 use crate::units::{frames, length};
 
 /// Largest capacity of the buffer of earlier audio, over its length.
@@ -91,7 +93,7 @@ impl Held {
     pub(super) fn set_aside(&mut self) {
         let judged = self.place(self.judged);
         for (earlier, held) in self.earlier.iter_mut().zip(&mut self.channels) {
-            std::mem::swap(earlier, held);
+            mem::swap(earlier, held);
             held.clear();
             held.extend(earlier.drain(judged..));
             // A long scene must not be room for two.
@@ -100,12 +102,16 @@ impl Held {
         self.from = self.judged;
     }
 
-    /// Lets go of what lies before a frame.
-    pub(super) fn forget(&mut self, before: u64) {
-        let forgotten = self.place(before);
-        for held in &mut self.channels {
-            held.drain(..forgotten);
+    /// Goes on from a frame, and gives what was held until now.
+    pub(super) fn split(&mut self, from: u64) -> Self {
+        let place = self.place(from);
+        let rest = self.channels.iter().map(|held| held[place..].to_vec());
+        let rest = rest.collect();
+        Self {
+            channels: mem::replace(&mut self.channels, rest),
+            from: mem::replace(&mut self.from, from),
+            judged: self.judged,
+            earlier: Vec::new(),
         }
-        self.from = before;
     }
 }

@@ -1,22 +1,25 @@
 //! Listening to a recording of any length as it comes, in bounded memory.
 //!
 //! An [activity gate](crate::detect::activity_gate) judges every quarter of a second. Where something rises a *scene* begins;
-//! it ends once nothing has risen for a while, is [analyzed](super::scene) at once, and its audio is let go. A scene that
-//! outgrows the memory is analyzed as far as it goes: drops that may go on past the cut are deferred to the rest.
+//! it ends once nothing has risen for a while, is [analyzed](super::scene) at once, or with others by many
+//! [workers](Workers), and its audio is let go. A scene that outgrows the memory is analyzed as far as it goes: drops that
+//! may go on past the cut are deferred to the rest.
 
 mod held;
 
+use std::mem;
 use std::ops::Range;
 
 use super::Settings;
 use super::drop::Extent;
 use super::findings::Findings;
-use super::scene::{Bounds, Chained};
+use super::scene::{Bounds, Chained, SceneResult};
 use crate::Error;
 use crate::detect::Detector;
 use crate::detect::activity_gate::ActivityGate;
 use crate::report::Analysis;
 use crate::units::{frame_at, frame_time_s, frames, length, real, samples_in};
+use crate::workers::Workers;
 use held::Held;
 
 /// Audio before the first rise that belongs to a scene, in seconds: it shows the usual level.
@@ -25,13 +28,13 @@ const BEFORE_S: f64 = 1.0;
 const AFTER_S: f64 = 1.5;
 /// Time without a rise after which a scene is over, in seconds. Derived: a flight of 3 s rises 11 m.
 const OVER_S: f64 = 3.0;
-/// Most audio held, in bytes over all channels: with the working memory of the analysis it stays below 64 MiB.
+/// Most audio held, in bytes over all channels: with the working memory of one worker it stays below 64 MiB.
 const HELD_BYTES: usize = 20 << 20;
 /// Least audio held of any recording, in seconds: a drop has to fit. It exceeds [`HELD_BYTES`] only above 600,000 samples a
 /// second over all channels.
 const LEAST_HELD_S: f64 = 8.0;
 /// Most samples a second over all channels, such as 32 channels at 48 kHz or two at 768: with [`LEAST_HELD_S`] of them and
-/// the working memory of the analysis it stays below 256 MiB. A header may claim 4 GHz.
+/// the working memory of one worker it stays below 256 MiB. A header may claim 4 GHz.
 const MOST_SAMPLES_PER_S: f64 = 1_536_000.0;
 
 /// Listens to all channels of a recording, block after block.
@@ -60,9 +63,19 @@ pub struct Listener {
     position: u64,
     held: Held,
     scene: Option<Rises>,
+    /// Scenes that are over and wait to be analyzed.
+    waiting: Vec<Scene>,
     /// Frames that may be held.
     most_held: usize,
+    workers: Workers,
     findings: Findings,
+}
+
+/// A scene, and the audio that holds it.
+#[derive(Debug)]
+struct Scene {
+    held: Held,
+    frames: Range<u64>,
 }
 
 /// Range of the rises in the scene that goes on.
@@ -116,12 +129,19 @@ impl Listener {
             position: 0,
             held: Held::new(channels, first),
             scene: None,
+            waiting: Vec::new(),
+            workers: Workers::default(),
             most_held: budget.max(samples_in(LEAST_HELD_S, sample_rate_hz)),
             findings: Findings::new(channels),
             settings: settings.clone(),
             sample_rate_hz,
             first_channel: indices.start,
         })
+    }
+
+    /// The listener with workers of another kind; it finds the same.
+    pub(crate) fn with_workers(self, workers: Workers) -> Self {
+        Self { workers, ..self }
     }
 
     /// Listens to the next samples of each channel, full scale being ±1. Blocks may be of any length; what is found
@@ -197,8 +217,9 @@ impl Listener {
         self.judge(self.held.unjudged());
         if let Some(rises) = self.scene.take() {
             let after = frame_at(AFTER_S, self.sample_rate_hz);
-            self.hear(rises.from, end.min(rises.last + after), false)?;
+            self.put_off(rises.from..end.min(rises.last + after), end);
         }
+        self.hear_waiting()?;
         let extent = self.extent();
         self.findings.analysis(extent, &self.settings)
     }
@@ -237,38 +258,62 @@ impl Listener {
             None if end - self.held.from() >= before => self.held.set_aside(),
             Some(rises) if end - rises.last >= over => {
                 self.scene = None;
-                self.hear(rises.from, rises.last + after, false)?;
-                self.held.forget(end - before);
+                self.put_off(rises.from..rises.last + after, end - before);
             }
             Some(rises) if end - rises.from >= frames(self.most_held) => {
-                let final_until = self.hear(rises.from, end, true)?;
-                self.scene = Some(Rises {
-                    from: final_until,
-                    ..rises
-                });
-                self.held.forget(final_until);
+                self.hear_waiting()?;
+                let heard = self.heard(&self.held, &(rises.from..end), true)?;
+                let final_until = frame_at(heard.final_until_s, self.sample_rate_hz);
+                let from = final_until.clamp(rises.from, end);
+                self.findings.add(heard);
+                self.scene = Some(Rises { from, ..rises });
+                drop(self.held.split(from));
             }
             _ => {}
+        }
+        if self.is_full() {
+            self.hear_waiting()?;
         }
         Ok(())
     }
 
-    /// Analyzes a scene; gives the frame up to which the result is final.
-    fn hear(&mut self, from: u64, to: u64, cut: bool) -> Result<u64, Error> {
+    /// Leaves a scene that is over to be analyzed later, and goes on from a frame.
+    fn put_off(&mut self, frames: Range<u64>, from: u64) {
+        let held = self.held.split(from);
+        self.waiting.push(Scene { held, frames });
+    }
+
+    /// Whether no scene may wait any longer: one worker has no use for several.
+    fn is_full(&self) -> bool {
+        let waiting = self.waiting.iter().map(|scene| &scene.held);
+        let held = waiting.chain([&self.held]).map(|h| h.end() - h.from());
+        !self.workers.are_many() || held.sum::<u64>() >= frames(self.most_held)
+    }
+
+    /// Analyzes the scenes that wait. They share no audio, [`OVER_S`] being more than [`AFTER_S`] and [`BEFORE_S`]: what is
+    /// reported of one is none of the others' concern.
+    fn hear_waiting(&mut self) -> Result<(), Error> {
+        let waiting = mem::take(&mut self.waiting);
+        let hear = |scene: Scene| self.heard(&scene.held, &scene.frames, false);
+        for heard in self.workers.map(waiting, hear) {
+            self.findings.add(heard?);
+        }
+        Ok(())
+    }
+
+    /// What is heard in a scene.
+    fn heard(&self, held: &Held, scene: &Range<u64>, cut: bool) -> Result<SceneResult, Error> {
         let bounds = Bounds {
-            first: from,
+            first: scene.start,
             listened_from: self.listened.start,
             cut,
         };
-        let channels = self.held.between(from, to);
-        let reported_s = self
-            .findings
-            .reported_after(frame_time_s(from, self.sample_rate_hz));
-        let chained = Chained::of(&channels, &bounds, &self.detector);
-        let heard = chained.measured(reported_s, &self.detector, &self.settings)?;
-        let final_until = frame_at(heard.final_until_s, self.sample_rate_hz).clamp(from, to);
-        self.findings.add(heard);
-        Ok(final_until)
+        let channels = held.between(scene.start, scene.end);
+        let from_s = frame_time_s(scene.start, self.sample_rate_hz);
+        let reported_s = self.findings.reported_after(from_s);
+        let (detector, workers) = (&self.detector, self.workers);
+        let chained = Chained::of(&channels, &bounds, detector, workers);
+        chained.measured(reported_s, detector, &self.settings, workers)
     }
 }
 

@@ -2,6 +2,7 @@ use super::*;
 use crate::report::WarningCode;
 use crate::synth::presets::preset;
 use crate::synth::render;
+use crate::workers::Task;
 
 const RATE_HZ: f64 = 44_100.0;
 
@@ -173,6 +174,33 @@ fn what_is_held_does_not_grow() {
         }
     }
     assert!(longest < samples_in(12.5, RATE_HZ), "{longest}");
+}
+
+#[test]
+fn scenes_that_wait_for_each_other_give_the_same_in_the_same_memory() {
+    // Alone, one behind another in one scene, and again.
+    let samples = recording(70.0, &[1.0, 14.0, 18.3, 22.6, 36.0, 49.0, 53.3, 62.0]);
+    let one_by_one = |tasks: Vec<Task<'_>>| tasks.into_iter().rev().for_each(|task| task());
+    for most_s in [11.0, 30.0, 100.0] {
+        let short = || Listener {
+            most_held: samples_in(most_s, RATE_HZ),
+            ..listener()
+        };
+        let mut many = short().with_workers(Workers::new(one_by_one));
+        let (mut longest, mut most_waiting) = (0, 0);
+        for block in samples.chunks(8_192) {
+            many.push(&[block]).unwrap();
+            let waiting = many.waiting.iter().map(|scene| &scene.held);
+            let held = waiting.chain([&many.held]).map(|h| h.channels[0].len());
+            longest = longest.max(held.sum());
+            most_waiting = most_waiting.max(many.waiting.len());
+        }
+        assert!(longest < samples_in(most_s + 0.5, RATE_HZ), "{most_s} s");
+        assert!(most_waiting >= 1, "{most_s} s");
+        let (one, many) = (heard(short(), &samples, 8_192), many.finish().unwrap().1);
+        assert_eq!(one, many, "{most_s} s");
+        assert!(one.drops.len() >= 8, "{} drops", one.drops.len());
+    }
 }
 
 #[test]

@@ -19,6 +19,7 @@ use crate::detect::activity_gate::ActivityGate;
 use crate::report::Drop;
 use crate::sequence::{Chain, is_echo_of};
 use crate::units::{frame_at, frame_time_s, frames, length, samples_in};
+use crate::workers::Workers;
 use known::{Known, Times};
 
 /// The last seconds that are searched. Convention: a drop of ten seconds with as much around it.
@@ -246,7 +247,8 @@ impl Live {
             listened_from: 0,
             cut: false,
         };
-        let mut chained = Chained::of(&channels, &bounds, &self.detector);
+        let workers = Workers::default();
+        let mut chained = Chained::of(&channels, &bounds, &self.detector, workers);
         let chains = &mut chained.found.drops;
         let is_open = |chain: &Chain| !is_over(&Times::of_chain(chain), extent.end_s);
         self.goes_on = chains.iter().any(is_open);
@@ -260,7 +262,7 @@ impl Live {
         }
         let seen: Vec<Times> = chains.iter().map(Times::of_chain).collect();
         let reported_s = known::reported_s(&self.known, &seen);
-        let result = chained.measured(&reported_s, &self.detector, &self.settings)?;
+        let result = chained.measured(&reported_s, &self.detector, &self.settings, workers)?;
         let few = result.few.filter(Heard::is_enough);
         let measured = result.drops.into_iter().chain(few.map(|few| few.measured));
         let drops = measured.map(|m| m.within(extent, &self.settings));

@@ -19,6 +19,7 @@ use crate::report::batch::{Digest, Found};
 use crate::report::curve::Bounces;
 use crate::report::times::Reading;
 use crate::rules::Rule;
+use crate::workers::Workers;
 
 /// What differs from file to file.
 #[derive(Debug)]
@@ -94,7 +95,7 @@ impl Job<'_> {
                 &named,
             )?
         } else {
-            listen_to_file(path, listening.track(), &request)?
+            listen_to_file(path, listening.track(), &request, Workers::default())?
         };
         match &self.plots {
             Some(plots) if list => plots.draw_times(path, &report)?,

@@ -17,7 +17,6 @@ use std::collections::HashSet;
 use std::io::{self, ErrorKind, Write};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::thread;
 
 use clap::{Args, value_parser};
 
@@ -28,7 +27,7 @@ use super::output::{followed, place};
 use super::picture::Target as Picture;
 use super::quantity::time;
 use super::rule::RuleArguments;
-use super::{Outcome, output, terminal};
+use super::{Outcome, output, terminal, threads};
 use crate::Error;
 use crate::plot::Figure;
 use crate::report::batch::{Digest, Found, answer, conclusion, summary};
@@ -304,9 +303,7 @@ fn per_file(arguments: &Arguments) -> Result<PerFile, Error> {
 
 /// No more threads than there are recordings.
 fn threads(arguments: &Arguments, job: &Job<'_>) -> usize {
-    let cores = || thread::available_parallelism().map_or(1, usize::from);
-    let asked = arguments.jobs.map_or_else(cores, usize::from);
-    asked.min(job.inputs.len()).max(1)
+    threads::count(arguments.jobs).min(job.inputs.len()).max(1)
 }
 
 /// Writes to standard error. A note that nobody can read is no reason to stop.
