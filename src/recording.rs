@@ -31,7 +31,7 @@ impl Channel {
             Self::Best => Ok(0..channels),
             Self::Number(number) if (1..=channels).contains(&number) => Ok(number - 1..number),
             Self::Number(number) => Err(Error::Argument {
-                argument: "--channel",
+                argument: "channel",
                 got: format!("{number} of a recording with {channels}"),
                 expected: "best or the number of a channel, from 1",
             }),

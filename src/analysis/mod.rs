@@ -25,6 +25,8 @@ mod warnings;
 
 pub use crate::report::Settings;
 pub use labelled::analyze_labelled;
+#[cfg(feature = "cli")]
+pub(crate) use listener::ALL_CHANNELS;
 pub use listener::Listener;
 pub use live::{Hears, Live, Told};
 pub use predict::{Question, predict};

@@ -6,6 +6,13 @@ use std::path::Path;
 /// As many first bytes as it takes to tell what a recording is.
 pub const HEAD_BYTES: usize = 64;
 
+/// What is read, as people call it, with the endings of names that differ from that.
+#[cfg(feature = "opus")]
+pub const FORMATS: &str = "WAV, FLAC, MP4 (M4A, MOV), AAC, MP3, Ogg (Vorbis, Opus), AIFF, CAF and Matroska (MKV, MKA, WebM)";
+/// What is read, as people call it, with the endings of names that differ from that.
+#[cfg(not(feature = "opus"))]
+pub const FORMATS: &str = "WAV, FLAC, MP4 (M4A, MOV), AAC, MP3, Ogg (Vorbis), AIFF and CAF";
+
 /// Endings of the names of recordings: of those that are read, and of those for which it is told how to convert them.
 const ENDINGS: [&str; 29] = [
     "wav", "wave", "m4a", "mp4", "mov", "aac", "mp3", "flac", "ogg", "oga", "opus", "webm", "mka",

@@ -14,7 +14,7 @@ use std::io::Read;
 use std::path::Path;
 
 pub use compressed::is_guarded;
-pub use content::{HEAD_BYTES, could_be_recording, has_ending};
+pub use content::{FORMATS, HEAD_BYTES, could_be_recording, has_ending};
 pub use stream::Stream;
 pub use wav::{Form, write_wav};
 

@@ -9,7 +9,7 @@ use super::Outcome;
 use super::document::{DocumentArguments, pictures, section};
 use super::known::{DECIMALS, one_of};
 use super::labels::LabelArguments;
-use super::listen::{Listening, listen_to_file};
+use super::listen::{Listening, by_option, listen_to_file};
 use super::picture::{Target, check_readable_twice, draw_sheets, figures};
 use super::predict::PredictArguments;
 use super::rule::RuleArguments;
@@ -111,7 +111,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let report = if arguments.file == Path::new("-") {
         let stream = Stream::open_track(io::stdin(), track);
         let report = stream.and_then(|stream| request.listen_by(stream, "-", workers));
-        report.map_err(|e| e.in_file("standard input"))?
+        report.map_err(|e| by_option(e).in_file("standard input"))?
     } else {
         listen_to_file(&arguments.file, track, &request, workers)?
     };

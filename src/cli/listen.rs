@@ -7,6 +7,7 @@ use clap::Args;
 use super::known::{Known, Word, one_of};
 use super::quantity::time;
 use crate::Error;
+use crate::analysis::ALL_CHANNELS;
 use crate::audio::{Stream, Track};
 use crate::recording::{Channel, Request};
 use crate::report::Report;
@@ -110,7 +111,32 @@ pub(super) fn listen_to_file(
 ) -> Result<Report, Error> {
     let stream = Stream::open_file_track(path, track)?;
     let report = request.listen_by(stream, &name(path), workers);
-    report.map_err(|e| e.in_file(path))
+    report.map_err(|e| by_option(e).in_file(path))
+}
+
+/// Names the option where the library, whose users have none, names what it sets.
+pub(super) fn by_option(error: Error) -> Error {
+    match error {
+        Error::Argument {
+            argument: "channel",
+            got,
+            expected,
+        } => Error::Argument {
+            argument: "--channel",
+            got,
+            expected,
+        },
+        Error::Argument {
+            argument: ALL_CHANNELS,
+            got,
+            ..
+        } => Error::Argument {
+            argument: ALL_CHANNELS,
+            got,
+            expected: "1536000 Hz or less: listen to one of them with --channel, or resample it",
+        },
+        other => other,
+    }
 }
 
 /// The name of a file in a document: as it is, but for bytes that are no UTF-8, which are written as `\xFF`.

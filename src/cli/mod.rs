@@ -32,15 +32,15 @@ use std::sync::LazyLock;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 use crate::Error;
+use crate::audio::FORMATS;
 
 /// What `--version` says; `-V` says its first line. The commit is known where the program was built for an archive.
 static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
     let commit = option_env!("BOUNCE_AUDIO_COMMIT").map(|commit| format!("\ncommit    {commit}"));
     format!(
-        "{}{}\n{}\n{}{}",
+        "{}{}\nreads     {FORMATS}\n{}{}",
         env!("CARGO_PKG_VERSION"),
         commit.unwrap_or_default(),
-        "reads     WAV, FLAC, ALAC, AAC, MP3, Vorbis, Opus, AIFF, CAF",
         "features  audio, plots, lab, cli",
         if cfg!(feature = "internals") {
             ", internals"

@@ -115,6 +115,51 @@ fn every_format_gives_the_drop() {
     }
 }
 
+/// The words of a text, in small letters.
+fn words(text: &str) -> Vec<String> {
+    let all = text.split(|c: char| !c.is_alphanumeric());
+    all.map(str::to_lowercase).collect()
+}
+
+#[test]
+fn what_is_read_is_named_where_it_is_said_what_is_read() {
+    let said = read(b"a letter to somebody").unwrap_err().to_string();
+    assert!(said.contains(audio::FORMATS), "{said}");
+    let version = Command::new(env!("CARGO_BIN_EXE_bounce-audio"))
+        .arg("--version")
+        .output()
+        .unwrap();
+    assert!(String::from_utf8_lossy(&version.stdout).contains(audio::FORMATS));
+
+    let file = |name| fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(name)).unwrap();
+    let formats = words(audio::FORMATS);
+    let without_opus = [
+        file("python/package/bounce_audio/listening.py"),
+        file("python/README.md"),
+        file("web/page/index.html"),
+    ];
+    let without_opus = without_opus.map(|text| words(&text));
+    for (name, encoding, ..) in FORMATS.into_iter().chain([("drop.wav", "WAV", 0.0, 0.0)]) {
+        let ending = name.rsplit('.').next().unwrap().to_owned();
+        assert!(formats.contains(&ending), "{ending}: {formats:?}");
+        for text in &without_opus {
+            let left_out = encoding == "Opus" || is_matroska(name);
+            assert!(left_out || text.contains(&ending), "{ending}");
+        }
+    }
+    // The left column of the table.
+    let table = file("docs/compressed.md");
+    let read: String = table
+        .lines()
+        .filter_map(|line| line.split('|').nth(1))
+        .collect();
+    let read = words(&read);
+    for format in formats {
+        let known = format == "and" || read.contains(&format);
+        assert!(known, "docs/compressed.md does not name {format}");
+    }
+}
+
 /// The tracks of `drop-second-track.m4a`, heard from the beginning.
 const TWO: &str = "1 (AAC, 32000 Hz, 1 channel, silent), 2 (AAC, 32000 Hz, 1 channel, has sound)";
 

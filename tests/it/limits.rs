@@ -14,7 +14,7 @@ const LIMITS: [(&str, &str, &str); 31] = [
     (
         "samples a second",
         "analyze fast.wav",
-        "sample rate of all channels together is 1536002, expected 1536000 Hz or less",
+        "sample rate of all channels together is 1536002, expected 1536000 Hz or less: listen to one of them with --channel",
     ),
     (
         "bytes of a frame",

@@ -170,4 +170,14 @@ fn what_holds_no_drop_or_no_sound_is_said() {
         let (_, err, status) = listen(words, b"");
         assert_eq!(status, 2, "{words:?}: {err}");
     }
+    let many = "- --raw s16le --rate 48000 --channels 33";
+    for (more, said) in [
+        ("", "listen to one of them with --channel"),
+        (" --channel 34", "--channel is 34 of a recording with 33"),
+    ] {
+        let line = format!("{many}{more}");
+        let words: Vec<&str> = line.split(' ').collect();
+        let (_, err, status) = listen(&words, &[0; 66]);
+        assert!(status == 2 && err.contains(said), "{err}");
+    }
 }

@@ -56,6 +56,19 @@ fn svg_says_all_that_the_figure_holds() {
 }
 
 #[test]
+fn an_svg_brings_its_own_ground() {
+    let svg = to_svg(&figure()).unwrap();
+    let (_, behind) = svg.split_once("viewBox=\"0 0 ").unwrap();
+    let (size, _) = behind.split_once('"').unwrap();
+    let (width, height) = size.split_once(' ').unwrap();
+    let ground = format!(
+        "<rect x=\"0\" y=\"0\" width=\"{width}\" height=\"{height}\" opacity=\"1\" fill=\"#FFFFFF\""
+    );
+    let first = svg.split('\n').nth(1).unwrap();
+    assert!(first.starts_with(&ground), "{first}");
+}
+
+#[test]
 fn png_has_its_size_and_some_ink() {
     let bytes = to_png(&figure()).unwrap();
     let decoder = png::Decoder::new(std::io::Cursor::new(bytes));
@@ -63,6 +76,11 @@ fn png_has_its_size_and_some_ink() {
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
     assert_eq!((info.width, info.height), (1400, 900));
+    assert_eq!(
+        info.color_type,
+        png::ColorType::Rgb,
+        "nothing shines through"
+    );
     assert!(pixels.iter().filter(|&&value| value < 64).count() > 10_000);
 }
 

@@ -13,13 +13,21 @@ fn readme() -> String {
     fs::read_to_string(root().join("README.md")).unwrap()
 }
 
-/// All documents that a reader may open.
+/// The files and folders that `.ci/release` packs as they stand.
+fn packed() -> Vec<PathBuf> {
+    let script = fs::read_to_string(root().join(".ci/release")).unwrap();
+    let (_, behind) = script.split_once("\npacked=(\n").unwrap();
+    let (names, _) = behind.split_once("\n)\n").unwrap();
+    names.split_whitespace().map(|n| root().join(n)).collect()
+}
+
+/// All documents that a reader of the archive may open.
 fn documents() -> Vec<PathBuf> {
     let docs = fs::read_dir(root().join("docs")).unwrap();
     let docs = docs.map(|entry| entry.unwrap().path());
-    let docs = docs.filter(|path| path.extension().is_some_and(|e| e == "md"));
-    let tops = ["README.md", "CONTRIBUTING.md"].map(|name| root().join(name));
-    docs.chain(tops).collect()
+    let all = packed().into_iter().chain(docs);
+    all.filter(|path| path.extension().is_some_and(|e| e == "md"))
+        .collect()
 }
 
 /// What the links and pictures of a document lead to.
@@ -43,16 +51,23 @@ fn blocks<'a>(document: &'a str, language: &str) -> Vec<&'a str> {
 }
 
 #[test]
-fn every_link_leads_to_a_file_that_is_there() {
+fn every_link_leads_to_a_file_that_is_there_and_in_the_archive() {
     let mut checked = 0;
+    let packed = packed().into_iter().map(|path| path.canonicalize());
+    let packed: Vec<PathBuf> = packed.map(Result::unwrap).collect();
     for path in documents() {
         let document = fs::read_to_string(&path).unwrap();
         for link in links(&document) {
             if link.starts_with("https://") {
                 continue;
             }
-            let target = link.split('#').next().unwrap();
-            let there = path.parent().unwrap().join(target).exists();
+            let from = path.parent().unwrap();
+            let target = match link.split('#').next().unwrap() {
+                "" => path.clone(),
+                target => from.join(target),
+            };
+            let there = target.canonicalize();
+            let there = there.is_ok_and(|t| packed.iter().any(|p| t.starts_with(p)));
             assert!(there, "{}: {link}", path.display());
             checked += 1;
         }

@@ -76,7 +76,7 @@ def analyze_file(
     rule: str | None = None,
     **settings: Unpack[Settings],
 ) -> Report:
-    """Listens to a recording in a file (WAV, FLAC, M4A, MP3, AAC, Ogg Vorbis), which is read in blocks.
+    """Listens to a recording in a file (WAV, FLAC, M4A, MP3, AAC, Ogg Vorbis, AIFF, CAF, or an MP4 or MOV video), which is read in blocks.
 
     The report is that of `bounce-audio analyze PATH --format json`, to the digit. `channel`, `rule` and `settings` are those
     of `analyze`.

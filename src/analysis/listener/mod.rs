@@ -37,6 +37,9 @@ const LEAST_HELD_S: f64 = 8.0;
 /// the working memory of one worker it stays below 256 MiB. A header may claim 4 GHz.
 const MOST_SAMPLES_PER_S: f64 = 1_536_000.0;
 
+/// What there is too much of where listening to one channel would do: the command names its option for that.
+pub(crate) const ALL_CHANNELS: &str = "sample rate of all channels together";
+
 /// Listens to all channels of a recording, block after block.
 ///
 /// ```
@@ -114,9 +117,7 @@ impl Listener {
         }
         let together = sample_rate_hz * real(channels);
         if together > MOST_SAMPLES_PER_S {
-            let expected = "1536000 Hz or less: listen to one of them, or resample it";
-            let all = "sample rate of all channels together";
-            return Err(Error::argument(all, together, expected));
+            return Err(too_many_samples(together, channels));
         }
         let detector = Detector::new(sample_rate_hz)?;
         let frame = |time_s: f64| frame_at(time_s, recorded_rate_hz);
@@ -321,6 +322,15 @@ impl Listener {
 pub(super) fn unlike(channels: usize) -> Error {
     let expected = "as many as announced, all of one length";
     Error::argument("channels", real(channels), expected)
+}
+
+/// The error of more samples a second than are held.
+fn too_many_samples(per_s: f64, channels: usize) -> Error {
+    if channels == 1 {
+        return Error::argument("sample rate", per_s, "1536000 Hz or less: resample it");
+    }
+    let expected = "1536000 Hz or less: listen to one of them, or resample it";
+    Error::argument(ALL_CHANNELS, per_s, expected)
 }
 
 #[cfg(all(test, feature = "lab"))]

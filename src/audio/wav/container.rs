@@ -9,7 +9,7 @@ use std::io::{ErrorKind, Read};
 use super::format::Format;
 use super::wav;
 use crate::Error;
-use crate::audio::unreadable;
+use crate::audio::{FORMATS, unreadable};
 
 /// How one sample is stored.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -124,9 +124,7 @@ fn check_magic(stream: &mut impl Read) -> Result<(), Error> {
         _ if got == 0 => Err(unreadable("it is empty")),
         (b"RIFF" | b"RF64" | b"BW64", b"WAVE") => Ok(()),
         (b"RIFX", _) => Err(wav("it is RIFX (big-endian), not RIFF")),
-        _ => Err(unreadable(
-            "it begins like none of WAV, FLAC, MP4, AAC, MP3 and Ogg Vorbis",
-        )),
+        _ => Err(unreadable(format!("it begins like none of {FORMATS}"))),
     }
 }
 

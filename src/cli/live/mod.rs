@@ -13,7 +13,7 @@ use clap::{Args, ValueEnum};
 
 use super::Outcome;
 use super::known::Known;
-use super::listen::channel;
+use super::listen::{by_option, channel};
 use crate::Error;
 use crate::analysis::Live;
 use crate::recording::Channel;
@@ -89,9 +89,12 @@ fn listen_to(
     arguments: &Arguments,
     stop: &AtomicBool,
 ) -> Result<Outcome, Error> {
-    let heard = arguments.channel.of(samples.channels())?;
+    let heard = arguments
+        .channel
+        .of(samples.channels())
+        .map_err(by_option)?;
     let settings = arguments.known.settings();
-    let mut live = Live::new(heard.len(), samples.rate_hz(), &settings)?;
+    let mut live = Live::new(heard.len(), samples.rate_hz(), &settings).map_err(by_option)?;
     let mut said = Said::new(arguments.format, heard.start);
     let saved = arguments.save.as_deref();
     let mut saved = saved
