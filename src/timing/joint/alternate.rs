@@ -5,6 +5,7 @@
 //! errors and never rest.
 
 use super::align::Aligned;
+use super::damping::Damping;
 use super::standard_error::overdispersions;
 use super::start::{Started, period};
 use super::{Place, Prior, usual_move};
@@ -17,8 +18,8 @@ const MISFIT_S: f64 = 0.1e-3;
 /// A match this far from the place before is another, in periods of the sound. Derived: steps find what is nearer than half
 /// of one, and a third leaves room for a template that is not yet right.
 const CYCLE: f64 = 0.33;
-/// Rounds in which what is held is learnt anew, at most: some drops of dull sounds that overlap reach this before they rest.
-const LIMIT: usize = 20;
+/// Rounds in which what is held is learnt anew, at most: six times the most seen.
+const LIMIT: usize = 200;
 
 /// The impacts of a drop and their template, under refinement.
 #[derive(Debug)]
@@ -33,6 +34,8 @@ pub(super) struct Joint<'a> {
     pub weights: Vec<Vec<f64>>,
     /// Variance of each match over that by independent samples.
     pub overdispersions: Vec<f64>,
+    /// By which share what is held of each impact is learnt anew.
+    held: Damping,
     /// What the places are after the priors by, in the median, in samples; none where priors have no say but in a search.
     pub guided: Option<f64>,
     pub correlator: Correlator,
@@ -51,6 +54,7 @@ impl<'a> Joint<'a> {
             noise: vec![Vec::new(); count],
             weights: vec![Vec::new(); count],
             overdispersions: vec![1.0; count],
+            held: Damping::of(count),
             priors: aligned.priors,
             places: aligned.places,
             template,
@@ -61,6 +65,7 @@ impl<'a> Joint<'a> {
 
     /// Refines times and template until they rest, without jumps.
     pub(super) fn settle(&mut self) {
+        self.held = Damping::of(self.places.len());
         let mut heads = self.heads();
         for _ in 0..LIMIT {
             if self.round(&mut heads) {
@@ -75,7 +80,9 @@ impl<'a> Joint<'a> {
         let before = self.now();
         *heads = self.rest();
         self.learn_misfit(heads);
-        self.rests_since(&before)
+        let since = self.since(&before);
+        self.held.learn(since.steps());
+        since.rests()
     }
 
     /// Refines times and template by the heads first and then by the whole template, with jumps once those rest.
@@ -83,7 +90,7 @@ impl<'a> Joint<'a> {
         self.round(&mut self.heads());
         self.learn_whole();
         self.settle();
-        if self.jump(&mut vec![0.0; self.places.len()]) {
+        if self.jump(&mut Rivals::of(self.places.len())) {
             self.settle();
         }
     }
@@ -91,38 +98,42 @@ impl<'a> Joint<'a> {
     /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard
     /// error by rival places that match nearly as well.
     pub(super) fn search_and_settle(&mut self) -> Vec<f64> {
-        let mut ambiguities = vec![0.0; self.places.len()];
+        let mut rivals = Rivals::of(self.places.len());
         let mut heads = self.heads();
-        for _ in 0..LIMIT {
+        loop {
             self.hold(&mut heads);
             let before = self.now();
-            let jumped = self.jump(&mut ambiguities);
+            let jumped = self.jump(&mut rivals);
             heads = self.rest();
             self.learn_misfit(&heads);
-            if !jumped || self.rests_since(&before) {
+            if !jumped || self.since(&before).rests() {
                 break;
             }
         }
         self.learn_whole();
-        for _ in 0..LIMIT {
+        rivals.tried.iter_mut().for_each(Vec::clear);
+        loop {
             self.settle();
-            if !self.jump(&mut ambiguities) {
+            if !self.jump(&mut rivals) {
                 break;
             }
         }
-        ambiguities
+        rivals.ambiguities
     }
 
-    /// Moves each impact to its best match where that is another than it has; whether there was one.
-    fn jump(&mut self, ambiguities: &mut [f64]) -> bool {
+    /// Moves each impact to its best match where that is another than those it has had; whether there was one.
+    fn jump(&mut self, rivals: &mut Rivals) -> bool {
         let cycle = CYCLE * period(&self.template.mean()[..self.template.head]);
         let mut jumped = false;
-        for (i, known) in ambiguities.iter_mut().enumerate() {
+        for i in 0..self.places.len() {
             let Some((place, ambiguity)) = self.searched(i) else {
                 continue;
             };
-            *known = ambiguity;
-            if (place.position - self.places[i].position).abs() > cycle {
+            rivals.ambiguities[i] = ambiguity;
+            let other = |there: f64| (place.position - there).abs() > cycle;
+            let here = self.places[i].position;
+            if other(here) && rivals.tried[i].iter().copied().all(other) {
+                rivals.tried[i].extend([here, place.position]);
                 self.places[i] = place;
                 jumped = true;
             }
@@ -138,6 +149,14 @@ impl<'a> Joint<'a> {
             for (n, w) in head.noise.iter_mut().zip(&head.weights) {
                 *n /= w;
             }
+            let share = self.held.share(i);
+            blend(&mut head.noise, &self.noise[i], |new, before| {
+                // What a sample knows is the reciprocal of its noise, which may be endless.
+                (share / new + (1.0 - share) / before).recip()
+            });
+            blend(&mut head.weights, &self.weights[i], |new, before| {
+                before + share * (new - before)
+            });
             self.noise[i].clone_from(&head.noise);
             self.weights[i].clone_from(&head.weights);
         }
@@ -200,6 +219,30 @@ impl<'a> Joint<'a> {
         self.template
             .learn_shape(&samples, &self.started.contact_stretches);
         self.learn_misfit(&samples);
+    }
+}
+
+/// What searches know of the rivals of each impact's place.
+struct Rivals {
+    /// Standard error of each place by rivals that match nearly as well, in samples.
+    ambiguities: Vec<f64>,
+    /// Places that each impact has left and gone to: it does not come back, or jumps would never end.
+    tried: Vec<Vec<f64>>,
+}
+
+impl Rivals {
+    fn of(count: usize) -> Self {
+        Self {
+            ambiguities: vec![0.0; count],
+            tried: vec![Vec::new(); count],
+        }
+    }
+}
+
+/// Makes each new value what it is together with that before; it stays as it is where nothing was before.
+fn blend(new: &mut [f64], before: &[f64], together: impl Fn(f64, f64) -> f64) {
+    for (new, before) in new.iter_mut().zip(before) {
+        *new = together(*new, *before);
     }
 }
 

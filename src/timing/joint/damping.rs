@@ -10,6 +10,7 @@ const LONGER: f64 = 1.25;
 pub(super) struct Damping {
     shares: Vec<f64>,
     last: Vec<f64>,
+    longer: f64,
 }
 
 impl Damping {
@@ -18,6 +19,15 @@ impl Damping {
         Self {
             shares: vec![1.0; count],
             last: vec![0.0; count],
+            longer: LONGER,
+        }
+    }
+
+    /// The same without becoming longer: from one round to the next the shares are the same but where a step went back.
+    pub(super) fn lasting(count: usize) -> Self {
+        Self {
+            longer: 1.0,
+            ..Self::of(count)
         }
     }
 
@@ -34,7 +44,7 @@ impl Damping {
             if step * *last < 0.0 && step.abs() > OVERSHOT * last.abs() {
                 *share *= 0.5;
             } else if step * *last > 0.0 {
-                *share = (LONGER * *share).min(1.0);
+                *share = (self.longer * *share).min(1.0);
             }
             *last = step;
         }

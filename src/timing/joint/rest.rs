@@ -2,6 +2,7 @@
 
 use super::Place;
 use super::alternate::Joint;
+use super::damping::Damping;
 use super::step::{Moved, Step};
 use crate::linalg::dot;
 use crate::signal::template::Sample;
@@ -16,8 +17,6 @@ const HELD_REST: f64 = 0.2;
 const STD_REST: f64 = 0.3;
 /// Rounds of the inner loop at most: a bound for dull sounds that overlap, which may come to rest very slowly.
 const LIMIT: usize = 100;
-/// A step back by this share of the one before has overshot: steps of that impact are halved (convention).
-const OVERSHOT: f64 = 0.7;
 /// Moves are steady where their cosine with those before is at least this, and they shrink by no more than the first share;
 /// a share above the second is taken as that (convention).
 const STEADY: f64 = 0.9;
@@ -32,17 +31,12 @@ impl Joint<'_> {
     pub(super) fn rest(&mut self) -> Vec<Sample> {
         let count = self.places.len();
         let mut before: Option<Vec<f64>> = None;
-        let (mut last, mut gains) = (vec![0.0; count], vec![1.0; count]);
+        let mut damping = Damping::lasting(count);
         let mut heads = Vec::new();
         for _ in 0..LIMIT {
-            let steps: Vec<Step> = (0..count).map(|i| self.step(i, gains[i])).collect();
+            let steps: Vec<Step> = (0..count).map(|i| self.step(i, damping.share(i))).collect();
             let moves: Vec<Moved> = steps.iter().map(|s| s.moved).collect();
-            for ((gain, last), moved) in gains.iter_mut().zip(&mut last).zip(&moves) {
-                if moved.by * *last < 0.0 && moved.by.abs() > OVERSHOT * last.abs() {
-                    *gain *= 0.5;
-                }
-                *last = moved.by;
-            }
+            damping.learn(moves.iter().map(|m| m.by));
             let beyond = self.beyond_common(&moves);
             let share = before.as_ref().and_then(|b| steady_share(b, &beyond));
             let left = share.map_or(0.0, |share| share / (1.0 - share));
@@ -68,8 +62,8 @@ impl Joint<'_> {
         each.map(|(i, place)| (*place, self.std(i))).collect()
     }
 
-    /// Whether since then nothing moved by much, against the others, and no standard error changed by much.
-    pub(super) fn rests_since(&self, before: &[(Place, f64)]) -> bool {
+    /// What has changed since then.
+    pub(super) fn since(&self, before: &[(Place, f64)]) -> Since {
         let now = self.now();
         let pairs = now.iter().zip(before);
         let moves = pairs.clone().map(|((now, std), (then, _))| Moved {
@@ -77,8 +71,10 @@ impl Joint<'_> {
             std: *std,
         });
         let known = pairs.map(|((_, now), (_, then))| (now / then).ln().abs());
-        known.fold(0.0, f64::max) < STD_REST
-            && greatest(&self.beyond_common(&moves.collect::<Vec<Moved>>())) < HELD_REST
+        Since {
+            moves: self.beyond_common(&moves.collect::<Vec<Moved>>()),
+            known: known.fold(0.0, f64::max),
+        }
     }
 
     /// Moves in standard errors, beyond what all have in common: as many terms in the contact stretch as the template has
@@ -103,6 +99,27 @@ impl Joint<'_> {
             (moved.by - common) / moved.std
         });
         beyond.collect()
+    }
+}
+
+/// What a round changed.
+pub(super) struct Since {
+    /// Moves in standard errors, against the others.
+    moves: Vec<f64>,
+    /// Greatest change of a standard error, as a logarithm.
+    known: f64,
+}
+
+impl Since {
+    /// The moves in standard errors, 0 of what rests: which way that goes is rounding.
+    pub(super) fn steps(&self) -> impl Iterator<Item = f64> {
+        let step = |m: &f64| if m.abs() < HELD_REST { 0.0 } else { *m };
+        self.moves.iter().map(step)
+    }
+
+    /// Whether nothing moved by much, and no standard error changed by much.
+    pub(super) fn rests(&self) -> bool {
+        self.known < STD_REST && greatest(&self.moves) < HELD_REST
     }
 }
 
