@@ -3,7 +3,7 @@
 use crate::signal::template::average::factors;
 use crate::statistics::{MAD_TO_STD, upper_median};
 
-/// Robust averaging ends once no coefficient moves by more than this share of its standard error (convention) …
+/// Robust averaging ends once neither slope nor bend moves by more than this share of its standard error (convention) …
 pub(super) const REST: f64 = 0.05;
 /// … or after this number of rounds: five times the most seen, on the suite and on real recordings.
 const LIMIT: usize = 100;

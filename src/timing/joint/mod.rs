@@ -10,8 +10,8 @@
 //! each sample counts by what it knows.
 //!
 //! Where slow impacts last longer than fast ones, a match is late for them by half of what the contact takes longer:
-//! [time walk](time_walk). The leading edge of the sound is the same however long the contact lasts and reveals it; S₁, S₂
-//! with the contact stretch `u = (v/v₁)^(−1/5)` less its mean (Hertz) are used in that case alone.
+//! [time walk](time_walk). The [leading edges](walk_by_edges) of the sounds depend least on it and reveal it; S₁, S₂ with the
+//! contact stretch `u = (v/v₁)^(−1/5)` less its mean (Hertz) are used in that case alone.
 //!
 //! Where most of the sounds is not in common, as in most real recordings that were tried, no template times them: they are timed by
 //! where they begin, each by itself ([`onset`]).

@@ -58,7 +58,7 @@ impl TimeWalk {
 }
 
 /// Fewest impacts that a time walk is fitted to, and that one or two more components are learnt from.
-const FEWEST: usize = 5;
+pub(super) const FEWEST: usize = 5;
 const FEWEST_LINEAR: usize = 8;
 const FEWEST_SQUARE: usize = 12;
 /// Standard errors by which a time walk differs from 0 at least …

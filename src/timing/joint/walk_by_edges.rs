@@ -4,10 +4,8 @@ use super::alternate::Joint;
 use super::curve::{Curve, REST, in_std};
 use super::damping::Damping;
 use super::leading_edge::{Course, LeadingEdges};
-use super::time_walk::TimeWalk;
+use super::time_walk::{FEWEST, TimeWalk};
 
-/// Fewest edges that a course is fitted to.
-const FEWEST: usize = 5;
 /// Slowing before anything is heard, and its standard deviation: somewhere between edges that are all alike and edges that
 /// are as slow as the contact is long.
 const SLOWING: f64 = 0.5;
