@@ -40,8 +40,15 @@ impl Joint<'_> {
             let beyond = self.beyond_common(&moves);
             let share = before.as_ref().and_then(|b| steady_share(b, &beyond));
             let left = share.map_or(0.0, |share| share / (1.0 - share));
-            let on = beyond.iter().zip(&moves);
-            let on = on.map(|(z, m)| (1.0 + left) * z * m.std - m.by);
+            let on = beyond.iter().zip(&moves).map(|(z, m)| {
+                // An impact that has vanished knows nothing, and stays.
+                let wanted = (1.0 + left) * z * m.std;
+                if wanted.is_finite() {
+                    wanted - m.by
+                } else {
+                    0.0
+                }
+            });
             let each = steps.iter().zip(on).enumerate();
             heads = each
                 .map(|(i, (step, on))| self.go_on(i, step, on))

@@ -260,3 +260,22 @@ fn impacts_at_rest_stay_where_they_are() {
     joint.settle();
     assert!(joint.since(&before).rests());
 }
+
+#[test]
+fn an_impact_that_has_vanished_leaves_the_others_their_places() {
+    let click = click(5e-3);
+    let onsets_s = onsets(12, 0.25, 0.89);
+    let samples = click.recorded(&onsets_s, 3);
+    let span_s = (onsets_s[0], onsets_s[11]);
+    let sound = Whitened::around(Sound::from_start(&samples, RATE), span_s);
+    let started = Started::of(&sound, &seen(&onsets_s)).unwrap();
+    let mut joint = Joint::of(&started, Aligned::of(&started).unwrap(), 1);
+    joint.search_and_settle();
+    let before = joint.now();
+    joint.places[4].amplitude = 0.0;
+    joint.settle();
+    for (i, ((place, _), (then, std))) in joint.now().iter().zip(&before).enumerate() {
+        let moved = (place.position - then.position).abs();
+        assert!(moved < 0.5 * std, "impact {i}: {moved} ± {std}");
+    }
+}
