@@ -18,7 +18,7 @@ const MISFIT_S: f64 = 0.1e-3;
 /// A match this far from the place before is another, in periods of the sound. Derived: steps find what is nearer than half
 /// of one, and a third leaves room for a template that is not yet right.
 const CYCLE: f64 = 0.33;
-/// Rounds in which what is held is learnt anew, at most: six times the most seen.
+/// Rounds in which what is held is learnt anew, at most: more than three times the most seen.
 const LIMIT: usize = 200;
 
 /// The impacts of a drop and their template, under refinement.

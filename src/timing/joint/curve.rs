@@ -5,7 +5,7 @@ use crate::statistics::{MAD_TO_STD, upper_median};
 
 /// Robust averaging ends once neither slope nor bend moves by more than this share of its standard error (convention) …
 pub(super) const REST: f64 = 0.05;
-/// … or after this number of rounds: five times the most seen, on the suite and on real recordings.
+/// … or after this number of rounds: four times the most seen, on both suites and real recordings.
 const LIMIT: usize = 100;
 
 /// A value at a contact stretch, and its standard error.

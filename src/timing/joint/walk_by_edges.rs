@@ -11,7 +11,7 @@ use super::time_walk::{FEWEST, TimeWalk};
 const SLOWING: f64 = 0.5;
 const SLOWING_STD: f64 = 0.5;
 /// Rounds in which walk and slowing are fitted, at most: more than twice the most seen.
-const LIMIT: usize = 100;
+const LIMIT: usize = 200;
 
 /// The walk of the leading edges; none where there are too few. Where edges lie is fitted first, and then how slow they are too.
 pub(super) fn walk_by_edges(joint: &Joint<'_>) -> Option<TimeWalk> {
