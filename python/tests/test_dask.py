@@ -40,7 +40,8 @@ def recordings(recording: Path, tmp_path_factory: pytest.TempPathFactory) -> Pat
     for number in range(40):
         place = folder / "more" if number % 3 else folder
         shutil.copy(recording, place / f"{number:02}.wav")
-    (folder / "07.wav").write_bytes(b"no recording")
+    # A broken WAV: of a file of no known kind the command, which reads more kinds, names more.
+    (folder / "07.wav").write_bytes(b"RIFF" + bytes(4) + b"WAVE")
     (folder / "notes.txt").write_text("none either")
     return folder
 
