@@ -75,7 +75,7 @@ impl<'a> Joint<'a> {
     }
 
     /// One round of the outer loop, from the heads as they are; whether nothing moved.
-    pub(super) fn round(&mut self, heads: &mut Vec<Sample>) -> bool {
+    fn round(&mut self, heads: &mut Vec<Sample>) -> bool {
         self.hold(heads);
         let before = self.now();
         *heads = self.rest();

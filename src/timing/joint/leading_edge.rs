@@ -84,30 +84,14 @@ impl<'a> LeadingEdges<'a> {
     /// would be found too often.
     pub(super) fn step(&self, course: &Course) -> Option<Step> {
         let cuts = self.cuts(course);
-        // With what lies on both sides, or the slope would be wrong at the ends.
-        let around = mean(&cuts);
-        let slopes = slope(&around);
-        let inside = KERNEL..KERNEL + self.length;
-        let (shape, slopes) = (&around[inside.clone()], &slopes[inside.clone()]);
-        let spread = slopes.iter().enumerate();
-        let spread: Vec<f64> = spread
-            .map(|(k, d)| (real(k) - self.beginning) * d)
-            .collect();
-        let parts = [shape, slopes, &spread];
-        let products = parts.map(|a| parts.map(|b| dot(a, b)));
-        let (placed, all) = (Cholesky::of(&products, 2)?, Cholesky::of(&products, 3)?);
-        let [time_std, slow_std] = [placed.inverse()[1][1].sqrt(), all.inverse()[2][2].sqrt()];
-        // Least squares are linear in the time only as far as the shape is.
-        let linear = (products[0][0] / products[1][1]).sqrt();
+        let mean = MeanEdge::of(&cuts, self.length, self.beginning)?;
         let started = self.joint.started;
         let (mut times, mut slowness) = (Vec::new(), Vec::new());
         let heard = cuts.iter().zip(&started.contact_stretches);
         for (cut, &contact_stretch) in heard.filter(|(cut, _)| cut.amplitude > 0.0) {
-            let found = parts.map(|part| dot(part, &cut.sound[inside.clone()]) / cut.amplitude);
-            let later = (-placed.solve(&found)[1]).clamp(-linear, linear);
-            let slower = -all.solve(&found)[2];
+            let (later, slower) = mean.off(cut);
             let taken = self.slowness(contact_stretch, course);
-            let std = taken * time_std / cut.amplitude;
+            let std = taken * mean.time_std / cut.amplitude;
             times.push(Value {
                 contact_stretch,
                 value: course.walk.shift(contact_stretch) + taken * later,
@@ -116,13 +100,13 @@ impl<'a> LeadingEdges<'a> {
             slowness.push(Value {
                 contact_stretch,
                 value: taken * (1.0 + slower) - 1.0,
-                std: taken * slow_std / cut.amplitude,
+                std: taken * mean.slow_std / cut.amplitude,
             });
         }
         Some(Step {
             times,
             slowness,
-            late: placed.solve(&products[2])[1],
+            late: mean.late,
             late_std: course.slowing * self.beginning_std,
         })
     }
@@ -153,6 +137,62 @@ impl<'a> LeadingEdges<'a> {
             }
         });
         cuts.collect()
+    }
+}
+
+/// The mean of edges that are as fast as each other, and what an edge a little later or slower differs from it by:
+/// `x = a·s − a·δ·ds/dt − a·σ·(t − t₀)·ds/dt` for an edge that begins at t₀, is late by δ and takes 1 + σ times as long.
+struct MeanEdge {
+    /// `s`, `ds/dt` and `(t − t₀)·ds/dt`.
+    parts: [Vec<f64>; 3],
+    /// Factors of their products: of the first two, for an edge as slow as it was taken to be, and of all.
+    placed: Cholesky<3>,
+    all: Cholesky<3>,
+    /// Standard errors of δ and σ, for an amplitude of 1.
+    time_std: f64,
+    slow_std: f64,
+    /// Least squares are linear in δ only as far as this, in samples.
+    linear: f64,
+    /// See [`Step::late`].
+    late: f64,
+}
+
+impl MeanEdge {
+    /// Of edges that have a margin on both sides, or the slope would be wrong at the ends.
+    fn of(cuts: &[Cut], length: usize, beginning: f64) -> Option<Self> {
+        let around = mean(cuts);
+        let inside = KERNEL..KERNEL + length;
+        let slopes = slope(&around)[inside.clone()].to_vec();
+        let spread = slopes.iter().enumerate();
+        let spread = spread.map(|(k, d)| (real(k) - beginning) * d).collect();
+        let parts = [around[inside].to_vec(), slopes, spread];
+        let products = parts
+            .each_ref()
+            .map(|a| parts.each_ref().map(|b| dot(a, b)));
+        let (placed, all) = (Cholesky::of(&products, 2)?, Cholesky::of(&products, 3)?);
+        Some(Self {
+            parts,
+            time_std: placed.inverse()[1][1].sqrt(),
+            slow_std: all.inverse()[2][2].sqrt(),
+            linear: (products[0][0] / products[1][1]).sqrt(),
+            late: placed.solve(&products[2])[1],
+            placed,
+            all,
+        })
+    }
+
+    /// How much later than the mean an edge begins, in samples, and how much slower it is, wherever it begins.
+    fn off(&self, cut: &Cut) -> (f64, f64) {
+        let sound = &cut.sound[KERNEL..KERNEL + self.parts[0].len()];
+        let found = self
+            .parts
+            .each_ref()
+            .map(|part| dot(part, sound) / cut.amplitude);
+        let later = -self.placed.solve(&found)[1];
+        (
+            later.clamp(-self.linear, self.linear),
+            -self.all.solve(&found)[2],
+        )
     }
 }
 

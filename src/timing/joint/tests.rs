@@ -245,37 +245,50 @@ fn times_do_not_depend_on_where_the_detector_saw_the_impacts() {
     }
 }
 
-#[test]
-fn impacts_at_rest_stay_where_they_are() {
-    let click = click(5e-3);
-    let onsets_s = onsets(30, 0.25, 0.89);
-    let samples = click.recorded(&onsets_s, 3);
-    let span_s = (onsets_s[0], onsets_s[29]);
+/// Times impacts by one template until they rest, and hands them over.
+fn at_rest(ball: &Ball, onsets_s: &[f64], check: impl FnOnce(Joint<'_>)) {
+    let samples = ball.recorded(onsets_s, 3);
+    let span_s = (onsets_s[0], *onsets_s.last().unwrap());
     let sound = Whitened::around(Sound::from_start(&samples, RATE), span_s);
-    let started = Started::of(&sound, &seen(&onsets_s)).unwrap();
+    let started = Started::of(&sound, &seen(onsets_s)).unwrap();
     let mut joint = Joint::of(&started, Aligned::of(&started).unwrap(), 1);
     assert!(joint.unlike() < UNLIKE);
     joint.search_and_settle();
-    let before = joint.now();
-    joint.settle();
-    assert!(joint.since(&before).rests());
+    check(joint);
+}
+
+#[test]
+fn impacts_at_rest_stay_where_they_are() {
+    at_rest(&click(5e-3), &onsets(30, 0.25, 0.89), |mut joint| {
+        let before = joint.now();
+        joint.settle();
+        assert!(joint.since(&before).rests());
+    });
 }
 
 #[test]
 fn an_impact_that_has_vanished_leaves_the_others_their_places() {
-    let click = click(5e-3);
-    let onsets_s = onsets(12, 0.25, 0.89);
-    let samples = click.recorded(&onsets_s, 3);
-    let span_s = (onsets_s[0], onsets_s[11]);
-    let sound = Whitened::around(Sound::from_start(&samples, RATE), span_s);
-    let started = Started::of(&sound, &seen(&onsets_s)).unwrap();
-    let mut joint = Joint::of(&started, Aligned::of(&started).unwrap(), 1);
-    joint.search_and_settle();
-    let before = joint.now();
-    joint.places[4].amplitude = 0.0;
-    joint.settle();
-    for (i, ((place, _), (then, std))) in joint.now().iter().zip(&before).enumerate() {
-        let moved = (place.position - then.position).abs();
-        assert!(moved < 0.5 * std, "impact {i}: {moved} ± {std}");
-    }
+    at_rest(&click(5e-3), &onsets(12, 0.25, 0.89), |mut joint| {
+        let before = joint.now();
+        joint.places[4].amplitude = 0.0;
+        joint.settle();
+        for (i, ((place, _), (then, std))) in joint.now().iter().zip(&before).enumerate() {
+            let moved = (place.position - then.position).abs();
+            assert!(moved < 0.5 * std, "impact {i}: {moved} ± {std}");
+        }
+    });
+}
+
+#[test]
+fn edges_of_sounds_that_are_alike_do_not_walk() {
+    at_rest(&click(5e-3), &onsets(30, 0.25, 0.89), |joint| {
+        let walk = walk_by_edges::walk_by_edges(&joint).unwrap();
+        let u = &joint.started.contact_stretches;
+        let (fast, slow) = (u[0], u[u.len() - 1]);
+        let (shift, std) = (walk.shift(slow) - walk.shift(fast), walk.std(slow - fast));
+        assert!(
+            shift.abs() < 3.0 * std && std < 0.3,
+            "{shift} ± {std} samples"
+        );
+    });
 }
