@@ -1,21 +1,17 @@
 //! Correlations.
 
-use crate::units::real;
+use rustfft::num_complex::Complex;
+
+use super::fourier::Fourier;
 
 /// Transforms are this many times as long as the shorter sequence, or a little longer: most of each is then of use, and
 /// it fits the cache.
 const TRANSFORM_LENGTHS: usize = 6;
 
-/// Correlates sequences by Fourier transforms, which it remembers the plans of.
-#[derive(Default)]
+/// Correlates sequences by Fourier transforms, which it keeps.
+#[derive(Debug, Default)]
 pub(crate) struct Correlator {
-    planner: realfft::RealFftPlanner<f64>,
-}
-
-impl std::fmt::Debug for Correlator {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Correlator").finish_non_exhaustive()
-    }
+    transforms: Vec<Fourier>,
 }
 
 /// [`Correlator::correlate`] for once.
@@ -30,40 +26,28 @@ impl Correlator {
         let length = (TRANSFORM_LENGTHS * b.len())
             .min(a.len())
             .next_power_of_two();
-        let forward = self.planner.plan_fft_forward(length);
-        let inverse = self.planner.plan_fft_inverse(length);
-        let (mut stretch, mut spectrum) = (forward.make_input_vec(), forward.make_output_vec());
-        let (mut ahead, mut back) = (forward.make_scratch_vec(), inverse.make_scratch_vec());
-        let mut sound = forward.make_output_vec();
-        stretch[..b.len()].copy_from_slice(b);
-        forward
-            .process_with_scratch(&mut stretch, &mut spectrum, &mut ahead)
-            .ok()?;
-        for x in &mut spectrum {
-            *x = x.conj() / real(length);
-        }
-        let mut out = Vec::with_capacity(count);
+        let fourier = self.transform(length);
+        let spectrum: Vec<_> = fourier.spectrum(b).iter().map(Complex::conj).collect();
+        let mut out = Vec::with_capacity(count + 2 * length);
         // Of each stretch the last values wrap around.
         let step = length - b.len() + 1;
-        for start in (0..count).step_by(step) {
-            let end = (start + length).min(a.len());
-            stretch[..end - start].copy_from_slice(&a[start..end]);
-            stretch[end - start..].fill(0.0);
-            forward
-                .process_with_scratch(&mut stretch, &mut sound, &mut ahead)
-                .ok()?;
-            for (x, y) in sound.iter_mut().zip(&spectrum) {
-                *x *= y;
-            }
-            // Rounding leaves a trace of an imaginary part where a real signal has none.
-            sound.first_mut()?.im = 0.0;
-            sound.last_mut()?.im = 0.0;
-            inverse
-                .process_with_scratch(&mut sound, &mut stretch, &mut back)
-                .ok()?;
-            out.extend_from_slice(&stretch[..step.min(count - start)]);
+        let stretch = |start: usize| &a[start.min(a.len())..(start + length).min(a.len())];
+        for start in (0..count).step_by(2 * step) {
+            let both = fourier.convolved(stretch(start), stretch(start + step), &spectrum);
+            out.extend(both[..step].iter().map(|z| z.re));
+            out.extend(both[..step].iter().map(|z| z.im));
         }
+        out.truncate(count);
         Some(out)
+    }
+
+    fn transform(&mut self, length: usize) -> &mut Fourier {
+        let known = self.transforms.iter().position(|t| t.len() == length);
+        let k = known.unwrap_or_else(|| {
+            self.transforms.push(Fourier::of(length));
+            self.transforms.len() - 1
+        });
+        &mut self.transforms[k]
     }
 }
 

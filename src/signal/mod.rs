@@ -3,6 +3,7 @@
 pub(crate) mod constant_fraction;
 pub mod correlate;
 pub mod filterbank;
+mod fourier;
 pub mod interpolate;
 pub(crate) mod logarithm;
 pub(crate) mod smooth;

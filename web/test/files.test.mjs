@@ -7,6 +7,10 @@ import { after, before, beforeEach, afterEach, test } from "node:test";
 import { FIXTURES, analyzed, answer, choose, command, document, opened, saved, stage, synthesized } from "./page.mjs";
 
 const SAME = 1e-9;
+// What the last digits of times show in first: evidence, a difference of sums of some hundred nats, and the ball behind the times,
+// which goes by the square of a contact time that is known to a tenth.
+const SAME_DERIVED = 1e-7;
+const isDerived = (path) => path.endsWith("_nats") || path.includes("/ball/");
 let site, chromium, context, page, requests, problems, place, wav, leave;
 
 before(async () => ({ place, wav, site, chromium, leave } = await stage("pingpong")));
@@ -26,7 +30,8 @@ afterEach(async () => {
 function assertSame(ours, theirs, path = "") {
   if (typeof theirs === "number") {
     const off = Math.abs(ours - theirs);
-    assert.ok(off <= SAME * Math.max(1, Math.abs(theirs)), `${path}: ${ours} and ${theirs}`);
+    const same = isDerived(path) ? SAME_DERIVED : SAME;
+    assert.ok(off <= same * Math.max(1, Math.abs(theirs)), `${path}: ${ours} and ${theirs}`);
   } else if (theirs !== null && typeof theirs === "object") {
     assert.deepEqual(Object.keys(ours), Object.keys(theirs), path);
     for (const key of Object.keys(theirs)) assertSame(ours[key], theirs[key], `${path}/${key}`);

@@ -1,0 +1,72 @@
+//! Fourier transforms of real samples, two sequences at a time.
+
+use rustfft::algorithm::Radix4;
+use rustfft::num_complex::Complex;
+use rustfft::{Fft, FftDirection, Length};
+
+use crate::units::real;
+
+/// Transforms of one length, a power of two, by the same plain arithmetic on every machine.
+pub(crate) struct Fourier {
+    forward: Radix4<f64>,
+    inverse: Radix4<f64>,
+}
+
+impl std::fmt::Debug for Fourier {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Fourier")
+            .field("length", &self.len())
+            .finish_non_exhaustive()
+    }
+}
+
+impl Fourier {
+    /// Transforms of at least as many samples.
+    pub(crate) fn of(length: usize) -> Self {
+        let length = length.next_power_of_two();
+        Self {
+            forward: Radix4::new(length, FftDirection::Forward),
+            inverse: Radix4::new(length, FftDirection::Inverse),
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.forward.len()
+    }
+
+    /// All lines of the spectrum of some samples and silence after them.
+    pub(crate) fn spectrum(&self, samples: &[f64]) -> Vec<Complex<f64>> {
+        let mut lines = pair(samples, &[], self.len());
+        self.forward.process(&mut lines);
+        lines
+    }
+
+    /// Two sequences, silence after each, each convolved around with what a spectrum is of; that must be of real samples, so
+    /// that the one stays the real part and the other the imaginary part.
+    pub(crate) fn convolved(
+        &self,
+        a: &[f64],
+        b: &[f64],
+        spectrum: &[Complex<f64>],
+    ) -> Vec<Complex<f64>> {
+        let mut both = pair(a, b, self.len());
+        self.forward.process(&mut both);
+        let scale = 1.0 / real(self.len());
+        for (line, other) in both.iter_mut().zip(spectrum) {
+            *line = (*line * other).scale(scale);
+        }
+        self.inverse.process(&mut both);
+        both
+    }
+}
+
+fn pair(a: &[f64], b: &[f64], length: usize) -> Vec<Complex<f64>> {
+    let mut both = vec![Complex::default(); length];
+    for (z, &x) in both.iter_mut().zip(a) {
+        z.re = x;
+    }
+    for (z, &x) in both.iter_mut().zip(b) {
+        z.im = x;
+    }
+    both
+}
