@@ -20,7 +20,8 @@ pub(crate) fn correlate(a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
 }
 
 impl Correlator {
-    /// `Σ_j a[k + j]·b[j]` for every k at which b lies within a, by Fourier transforms of stretches of a that overlap by b.
+    /// `Σ_j a[k + j]·b[j]` for every k at which b lies within a, by Fourier transforms of stretches of a that overlap by b,
+    /// two in each.
     pub(crate) fn correlate(&mut self, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
         let count = a.len().checked_sub(b.len())? + 1;
         let length = (TRANSFORM_LENGTHS * b.len())
@@ -41,13 +42,14 @@ impl Correlator {
         Some(out)
     }
 
-    fn transform(&mut self, length: usize) -> &mut Fourier {
+    /// The transforms of a length, made where they are not kept yet.
+    fn transform(&mut self, length: usize) -> &Fourier {
         let known = self.transforms.iter().position(|t| t.len() == length);
         let k = known.unwrap_or_else(|| {
             self.transforms.push(Fourier::of(length));
             self.transforms.len() - 1
         });
-        &mut self.transforms[k]
+        &self.transforms[k]
     }
 }
 

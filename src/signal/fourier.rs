@@ -6,7 +6,7 @@ use rustfft::{Fft, FftDirection, Length};
 
 use crate::units::real;
 
-/// Transforms of one length, a power of two, by the same plain arithmetic on every machine.
+/// Transforms of one length, a power of two, without the vectors of one machine or another.
 pub(crate) struct Fourier {
     forward: Radix4<f64>,
     inverse: Radix4<f64>,
@@ -21,9 +21,8 @@ impl std::fmt::Debug for Fourier {
 }
 
 impl Fourier {
-    /// Transforms of at least as many samples.
+    /// Transforms of as many samples, a power of two.
     pub(crate) fn of(length: usize) -> Self {
-        let length = length.next_power_of_two();
         Self {
             forward: Radix4::new(length, FftDirection::Forward),
             inverse: Radix4::new(length, FftDirection::Inverse),
@@ -60,6 +59,7 @@ impl Fourier {
     }
 }
 
+/// One sequence as the real part and one as the imaginary part, silence after each.
 fn pair(a: &[f64], b: &[f64], length: usize) -> Vec<Complex<f64>> {
     let mut both = vec![Complex::default(); length];
     for (z, &x) in both.iter_mut().zip(a) {

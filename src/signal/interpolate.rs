@@ -1,6 +1,5 @@
 //! Band-limited sequences between their samples.
 
-use std::ops::{AddAssign, Mul};
 use std::sync::LazyLock;
 
 use crate::units::real;
@@ -48,16 +47,13 @@ fn padded(samples: &[f64], first: isize, length: usize) -> Vec<f64> {
 const BLOCK: usize = 16;
 
 /// `Σ_k weights[k]·samples[i + k]` for every i at which all weights lie within the samples.
-pub(crate) fn correlated<T, const TAPS: usize>(samples: &[T], weights: &[T; TAPS]) -> Vec<T>
-where
-    T: Copy + Default + AddAssign + Mul<Output = T>,
-{
+pub(crate) fn correlated<const TAPS: usize>(samples: &[f64], weights: &[f64; TAPS]) -> Vec<f64> {
     let count = (samples.len() + 1).saturating_sub(TAPS);
     let mut out = Vec::with_capacity(count);
     let blocks = count / BLOCK;
     for b in 0..blocks {
         let samples = &samples[b * BLOCK..b * BLOCK + BLOCK + TAPS - 1];
-        let mut sums = [T::default(); BLOCK];
+        let mut sums = [0.0; BLOCK];
         for (k, &weight) in weights.iter().enumerate() {
             for (sum, &x) in sums.iter_mut().zip(&samples[k..k + BLOCK]) {
                 *sum += weight * x;
@@ -66,7 +62,7 @@ where
         out.extend_from_slice(&sums);
     }
     for window in samples[blocks * BLOCK..].windows(TAPS) {
-        let mut sum = T::default();
+        let mut sum = 0.0;
         for (&x, &weight) in window.iter().zip(weights) {
             sum += weight * x;
         }
