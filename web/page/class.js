@@ -31,7 +31,15 @@ function removeCell(recording, remove) {
   return made("td", {}, [button]);
 }
 
-function rowsOf(recording, shown, { show, remove }) {
+// Of each drop, what the rule says of it, once one is chosen.
+function outcomeCells(recording, place) {
+  const rule = recording.report.rule;
+  return rule ? [made("td", { textContent: rule.drops[place].outcome })] : [];
+}
+
+const isJudged = (recordings) => recordings.some((one) => !one.problem && one.report?.rule);
+
+function rowsOf(recording, { shown, columns }, { show, remove }) {
   const className = recording === shown ? "shown" : "";
   const name = (drop) => nameCell(recording, () => show(recording, drop));
   const last = () => removeCell(recording, () => remove(recording));
@@ -39,14 +47,14 @@ function rowsOf(recording, shown, { show, remove }) {
   const drops = recording.report?.drops ?? [];
   if (why !== null || drops.length === 0) {
     const text = why ?? "no drop found";
-    const cell = made("td", { className: "why", colSpan: 5, textContent: text });
+    const cell = made("td", { className: "why", colSpan: columns, textContent: text });
     return [row([name(0), cell, last()], { className })];
   }
   return drops.map((drop, i) => {
     const e = drop.restitution;
     const [value, error] = e ? valueAndError(e.value, e.std_error) : ["–", "–"];
     const time = `${fixed(drop.observed_time_s, 2)} s`;
-    return row([name(i), `${i + 1}`, value, error, `${drop.bounces}`, time, last()], { className });
+    return row([name(i), `${i + 1}`, value, error, `${drop.bounces}`, time, ...outcomeCells(recording, i), last()], { className });
   });
 }
 
@@ -54,5 +62,9 @@ export function showClass(recordings, shown, actions) {
   const drops = recordings.reduce((sum, one) => sum + (one.report?.drops.length ?? 0), 0);
   element("class").hidden = recordings.length < 2 && drops < 2;
   element("class-mean").textContent = sentenceOfMean(recordings);
-  element("class-rows").replaceChildren(...recordings.flatMap((one) => rowsOf(one, shown, actions)));
+  const judged = isJudged(recordings);
+  element("class-rule").hidden = !judged;
+  // What a table says instead of e, bounces and the like takes all columns between the names and the buttons.
+  const table = { shown, columns: judged ? 6 : 5 };
+  element("class-rows").replaceChildren(...recordings.flatMap((one) => rowsOf(one, table, actions)));
 }

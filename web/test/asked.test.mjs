@@ -114,6 +114,29 @@ test("every model of the command can be chosen, and is fitted at once", async ()
   }
 });
 
+test("a rule judges each drop of a class", async () => {
+  const files = [3, 4].map((seed) => join(place.path, `judged-${seed}.wav`));
+  files.forEach((file, i) => command("synth", "--preset", "pingpong", "--seed", `${3 + i}`, "-o", file));
+  const silent = join(place.path, "silent.wav");
+  command("synth", "--preset", "silence", "-o", silent);
+  await choose(page, [...files, silent]);
+  await page.waitForFunction(() => /2 drops/u.test(document.getElementById("class-mean").textContent));
+  assert.ok(await page.isHidden("#class-rule"));
+  await page.selectOption("#rule", "ittf-ball");
+  const outcomes = files.map((file) => JSON.parse(judged("analyze", file, "--format", "json", "--rule", "ittf-ball")).rule.drops[0].outcome);
+  const everyRowHas = (count) => page.waitForFunction((cells) => [1, 2].every((i) =>
+    document.querySelectorAll(`#class-rows tr:nth-child(${i}) td`).length === cells), count);
+  await everyRowHas(8);
+  assert.ok(await page.isVisible("#class-rule"));
+  const cells = (i) => page.locator(`#class-rows tr:nth-child(${i + 1}) td`).allTextContents();
+  for (const [i, outcome] of outcomes.entries()) assert.equal((await cells(i))[6], outcome);
+  assert.equal((await cells(2))[1], "no drop found");
+  assert.equal(await page.locator("#class-rows tr:nth-child(3) td").nth(1).getAttribute("colspan"), "6");
+  await page.selectOption("#rule", "");
+  await everyRowHas(7);
+  await page.waitForFunction(() => document.querySelector("#class-rule[hidden]"));
+});
+
 test("a rule and a model hold for edited impacts too", async () => {
   await choose(page, wav);
   await answer(page, /67 bounces/);
