@@ -72,17 +72,17 @@ fn evaluated(names: impl Iterator<Item = &'static str>) -> Evaluation {
 /// Figures that were once better and are owed: the threshold of the scene stays, and until it is met again this holds.
 /// What repays one takes it out here.
 const OWED: [(&str, &str, f64); 3] = [
-    // Of 74 intervals 71 hold e.
-    ("all", "coverage95", 0.955),
-    // The medians of caught and stone are chance of two recordings. Over 24 other seeds they are 0.58 and 0.44 µs; of the program
-    // that set these thresholds they are 0.66 and 0.56.
+    // The medians of caught and stone are chance of two recordings. Over 24 other seeds they were 0.58 and 0.44 µs; of the
+    // program that set these thresholds they are 0.66 and 0.56.
     ("caught", "timing_error_median_s", 9e-7),
     ("stone", "timing_error_median_s", 4.6e-7),
+    // Two recordings as well: over 16 other seeds it is 0.193 µs, and was 0.192 before templates were filtered.
+    ("two-balls", "timing_error_median_s", 1.46e-7),
 ];
 
 /// The same of the second suite: words and taps that quicken and fade, all of one sound, are taken for a ball; and
 /// medians of times that are a tenth to a third over what they were, as in the first suite.
-const OWED_OF_FOUND: [(&str, &str, f64); 11] = [
+const OWED_OF_FOUND: [(&str, &str, f64); 10] = [
     ("all", "false_drops", 9.0),
     ("drop-out", "timing_error_median_s", 5.9e-7),
     ("knocked-before", "timing_error_median_s", 2.7e-7),
@@ -91,7 +91,6 @@ const OWED_OF_FOUND: [(&str, &str, f64); 11] = [
     ("scatter-5", "timing_error_median_s", 6e-7),
     ("scatter-8", "timing_error_median_s", 4.5e-7),
     ("splice", "timing_error_median_s", 5.9e-7),
-    ("thumps", "timing_error_median_s", 7.0e-5),
     ("words", "false_drops", 4.0),
     ("words-and-tennis", "false_drops", 3.0),
 ];

@@ -68,10 +68,10 @@ pub const MIDDLE_CONTACT_S: Known = Known {
     std: 1e-3,
 };
 
-/// C of soft balls, in seconds: tennis 5 ms, and one in twenty has a basketball's twelve.
+/// C of soft balls, in seconds: the root of the mean square of tennis's 5 ms, a football's 8 and a basketball's 12.
 pub const LONG_CONTACT_S: Known = Known {
     value: 0.0,
-    std: 6e-3,
+    std: 9e-3,
 };
 
 /// C for the tracker, in seconds: a fifth of [`CONTACT_S`]. The tracker takes e to be the same at all speeds, and of the

@@ -34,7 +34,7 @@ impl Correlator {
         let step = length - b.len() + 1;
         let stretch = |start: usize| &a[start.min(a.len())..(start + length).min(a.len())];
         for start in (0..count).step_by(2 * step) {
-            let both = fourier.convolved(stretch(start), stretch(start + step), &spectrum);
+            let both = fourier.filtered(stretch(start), stretch(start + step), &spectrum);
             out.extend(both[..step].iter().map(|z| z.re));
             out.extend(both[..step].iter().map(|z| z.im));
         }

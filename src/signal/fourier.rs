@@ -40,19 +40,19 @@ impl Fourier {
         lines
     }
 
-    /// Two sequences, silence after each, each convolved around with what a spectrum is of; that must be of real samples, so
-    /// that the one stays the real part and the other the imaginary part.
-    pub(crate) fn convolved(
-        &self,
-        a: &[f64],
-        b: &[f64],
-        spectrum: &[Complex<f64>],
-    ) -> Vec<Complex<f64>> {
+    /// Two sequences, silence after each, with every line of their spectra times its gain: a convolution around with what the
+    /// gains are the spectrum of. That must be of real samples, so that the one stays the real part and the other the imaginary
+    /// part.
+    pub(crate) fn filtered<G>(&self, a: &[f64], b: &[f64], gains: &[G]) -> Vec<Complex<f64>>
+    where
+        G: Copy,
+        Complex<f64>: std::ops::Mul<G, Output = Complex<f64>>,
+    {
         let mut both = pair(a, b, self.len());
         self.forward.process(&mut both);
         let scale = 1.0 / real(self.len());
-        for (line, other) in both.iter_mut().zip(spectrum) {
-            *line = (*line * other).scale(scale);
+        for (line, &gain) in both.iter_mut().zip(gains) {
+            *line = (*line * gain).scale(scale);
         }
         self.inverse.process(&mut both);
         both

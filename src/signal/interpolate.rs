@@ -33,7 +33,7 @@ pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
 }
 
 /// `length` samples from an index on; zero where there are none.
-fn padded(samples: &[f64], first: isize, length: usize) -> Vec<f64> {
+pub(crate) fn padded(samples: &[f64], first: isize, length: usize) -> Vec<f64> {
     let skip = usize::try_from(-first).unwrap_or(0).min(length);
     let from = usize::try_from(first).unwrap_or(0).min(samples.len());
     let mut padded = vec![0.0; length];

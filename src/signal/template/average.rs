@@ -18,18 +18,50 @@ pub(crate) fn sums(of: &[Vec<f64>]) -> Vec<f64> {
     sums
 }
 
-/// `Σ w·x/a / Σ w` at each sample.
-pub(super) fn weighted_mean(impacts: &[Sample], weights: &[Vec<f64>], mean: &mut [f64]) {
-    mean.fill(0.0);
-    for (s, weights) in impacts.iter().zip(weights) {
-        let scale = 1.0 / s.amplitude;
-        for ((m, w), x) in mean.iter_mut().zip(weights).zip(&s.sound) {
-            *m += w * scale * x;
+/// Variance of the weighted mean of all sounds at each sample by white noise of variance 1 in each, `Σ w²/a² / (Σ w)²`.
+/// Differences between impacts add to it, but as waves as long as their own.
+pub(crate) fn mean_variances(samples: &[Sample]) -> Vec<f64> {
+    let weights = sums(&samples.iter().map(Sample::information).collect::<Vec<_>>());
+    let mut variances = vec![0.0; weights.len()];
+    for sample in samples {
+        let scale = sample.amplitude.powi(-2);
+        for ((v, w), all) in variances.iter_mut().zip(sample.information()).zip(&weights) {
+            *v += scale * (w / all).powi(2);
         }
     }
-    for (m, w) in mean.iter_mut().zip(sums(weights)) {
+    variances
+}
+
+/// `Σ w·x/a / Σ w` at each sample, of sounds with their weights.
+pub(super) fn weighted_mean<'a>(
+    of: impl Iterator<Item = (&'a Sample, &'a Vec<f64>)>,
+    mean: &mut [f64],
+) {
+    let mut all = vec![0.0; mean.len()];
+    mean.fill(0.0);
+    for (s, weights) in of {
+        let scale = 1.0 / s.amplitude;
+        let each = mean.iter_mut().zip(&mut all);
+        for (((m, all), w), x) in each.zip(weights).zip(&s.sound) {
+            *m += w * scale * x;
+            *all += w;
+        }
+    }
+    for (m, w) in mean.iter_mut().zip(all) {
         *m /= w;
     }
+}
+
+/// The means of every other sound, from the first on and from the second: what they have in common is no noise.
+pub(super) fn half_means(samples: &[Sample]) -> [Vec<f64>; 2] {
+    let weights: Vec<Vec<f64>> = samples.iter().map(Sample::information).collect();
+    let length = weights.first().map_or(0, Vec::len);
+    [0, 1].map(|first| {
+        let mut mean = vec![0.0; length];
+        let every_other = samples.iter().zip(&weights).skip(first).step_by(2);
+        weighted_mean(every_other, &mut mean);
+        mean
+    })
 }
 
 /// The components at each sample, by up to three normal equations; 0 where nothing was recorded. The sums grow sound by

@@ -2,23 +2,31 @@
 
 pub(crate) mod aligned;
 pub(crate) mod average;
+mod wiener;
 
 use super::constant_fraction;
 use super::interpolate::{KERNEL, slope};
 use super::smooth::smoothed;
 use crate::units::real;
-use average::{sums, weighted_fit, weighted_mean};
+use average::{half_means, mean_variances, sums, weighted_fit, weighted_mean};
+use wiener::Wiener;
 
 /// Share of the template's energy that its head holds: the rest adds little information on the time.
 const HEAD_SHARE: f64 = 0.95;
-/// A template counts where its square exceeds its variance by this factor.
+/// A template counts where its square, or its power around a frequency, exceeds its variance by this factor.
 const CLEAR: f64 = 1.5;
 
 /// The common sound of a drop's impacts: sample k of each component is `k − before` samples after the onset.
 #[derive(Debug, Clone, Default)]
 pub struct Template {
-    /// `S_c`, of one length.
+    /// `S_c`, of one length, less what is noise in them.
     pub(crate) components: Vec<Vec<f64>>,
+    /// The same as they are heard.
+    heard: Vec<Vec<f64>>,
+    /// What the noise is taken out by; none where it is not known.
+    wiener: Option<Wiener>,
+    /// Samples that the filter, as it is now, is still to be taken to.
+    unfiltered: usize,
     /// Variance of the difference between an impact of amplitude 1 and its template.
     pub(crate) misfit: Vec<f64>,
     pub(crate) before: usize,
@@ -52,7 +60,8 @@ impl Template {
     pub(crate) fn new(mean: Vec<f64>, noise: Vec<f64>, before: usize) -> Self {
         let misfit = vec![0.0; mean.len()];
         let mut template = Self {
-            components: vec![mean],
+            components: vec![mean.clone()],
+            heard: vec![mean],
             misfit,
             before,
             noise,
@@ -78,7 +87,7 @@ impl Template {
     /// Wiener's filter: each sample times `1 − n/s²`, or 0, for the power s² of the samples around it and the variance n of
     /// the mean there.
     pub(crate) fn denoised(&self) -> Vec<f64> {
-        let squares: Vec<f64> = self.mean().iter().map(|s| s * s).collect();
+        let squares: Vec<f64> = self.heard[0].iter().map(|s| s * s).collect();
         let power = smoothed(&squares, self.before);
         let noise = smoothed(&self.noise, self.before);
         let held = power.into_iter().zip(noise);
@@ -88,7 +97,8 @@ impl Template {
 
     /// Onset of its sound, in samples after the nominal one: the constant fraction of its rise.
     pub(crate) fn onset(&self, rate: f64) -> f64 {
-        let rise = constant_fraction::time(self.mean(), self.before, rate);
+        // As it is heard: a filter reaches before it.
+        let rise = constant_fraction::time(&self.heard[0], self.before, rate);
         rise.map_or(0.0, |r| r.position - real(self.before))
     }
 
@@ -105,7 +115,7 @@ impl Template {
 
     /// Samples that hold most of the template's energy, less what its own noise makes, where it stands out of that.
     fn head_length(&self) -> usize {
-        let squares: Vec<f64> = self.mean().iter().map(|s| s * s).collect();
+        let squares: Vec<f64> = self.heard[0].iter().map(|s| s * s).collect();
         let noise = smoothed(&self.noise, self.before);
         let known =
             smoothed(&squares, self.before)
@@ -143,13 +153,18 @@ impl Template {
     /// S(t) minimises Σ_i w_i(t)·(x_i(t)/a_i − Σ_c u_iᶜ·S_c(t))²,   w_i(t) = a_i²/noise_i(t)
     /// ```
     pub(crate) fn learn_shape(&mut self, impacts: &[Sample], contact_stretches: &[f64]) {
+        self.heard
+            .resize(self.components.len(), vec![0.0; self.len()]);
         let length = impacts.first().map_or(0, |s| s.sound.len());
         let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::information).collect();
         if self.components.len() == 1 {
-            weighted_mean(impacts, &weights, &mut self.components[0][..length]);
+            weighted_mean(impacts.iter().zip(&weights), &mut self.heard[0][..length]);
         } else {
-            weighted_fit(impacts, &weights, &mut self.components);
-            self.learn_shapes(length, contact_stretches);
+            weighted_fit(impacts, &weights, &mut self.heard);
+        }
+        let changed = self.take_noise_out(length);
+        if self.components.len() > 1 {
+            self.learn_shapes(changed, contact_stretches);
         }
         self.learn_slopes(contact_stretches);
     }
@@ -172,12 +187,42 @@ impl Template {
         }
     }
 
+    /// Learns what is noise in it, from the impacts that it was learnt from.
+    pub(crate) fn learn_noise(&mut self, impacts: &[Sample]) {
+        let variances = mean_variances(impacts);
+        let head = &self.heard[0][..variances.len()];
+        self.wiener = Some(Wiener::of(
+            head,
+            &half_means(impacts),
+            variances.iter().sum(),
+        ));
+        self.unfiltered = self.len();
+    }
+
+    /// Share of the noise in its slope that its filter leaves.
+    pub(crate) fn slope_noise(&self) -> f64 {
+        self.wiener.as_ref().map_or(1.0, Wiener::slope_noise)
+    }
+
+    /// What the components are of what is heard, where so many samples of that changed; gives how many of them did.
+    fn take_noise_out(&mut self, changed: usize) -> usize {
+        let Some(wiener) = &self.wiener else {
+            self.components.clone_from(&self.heard);
+            return changed;
+        };
+        let changed = (changed + wiener.reach()).max(self.unfiltered);
+        let changed = changed.min(self.len());
+        wiener.filter(&self.heard, changed, &mut self.components);
+        self.unfiltered = 0;
+        changed
+    }
+
     /// The sound of each impact anew, up to where the components changed.
-    fn learn_shapes(&mut self, length: usize, contact_stretches: &[f64]) {
+    fn learn_shapes(&mut self, changed: usize, contact_stretches: &[f64]) {
         let changed = if self.shapes.is_empty() {
             self.len()
         } else {
-            length
+            changed
         };
         self.shapes
             .resize(contact_stretches.len(), vec![0.0; self.len()]);

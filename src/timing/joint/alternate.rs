@@ -160,6 +160,7 @@ impl<'a> Joint<'a> {
             self.noise[i].clone_from(&head.noise);
             self.weights[i].clone_from(&head.weights);
         }
+        self.template.learn_noise(heads);
         self.overdispersions = overdispersions(self, heads);
         self.guided = self.guided.map(|_| usual_move(&self.priors, &self.places));
     }

@@ -3,7 +3,7 @@
 use super::alternate::Joint;
 use super::normal_equations::NormalEquations;
 use crate::signal::interpolate::slope_gain;
-use crate::signal::template::average::sums;
+use crate::signal::template::average::{mean_variances, sums};
 use crate::signal::template::{MOST_SHARE, Sample};
 use crate::units::real;
 
@@ -31,10 +31,13 @@ pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
     let error_pairs = error_pairs(joint, &samples);
     let excess = noise_excess(joint, &samples);
     let variances = mean_variances(&samples);
+    let slope_noise = slope_gain() * joint.template.slope_noise();
     let std = |i: usize| {
         let (independent, _) = error_pairs[i]?;
         let (shape, slopes) = (joint.template.shape(i), joint.template.slopes(i));
-        let known = attenuation(&samples[i], shape, slopes, &variances);
+        let noise = variances.iter().zip(&samples[i].noise).map(|(v, n)| v / n);
+        let noise = slope_noise * noise.sum::<f64>();
+        let known = attenuation(&samples[i], shape, slopes, noise);
         Some(independent / known * (overdispersion(&error_pairs, i) + excess).sqrt())
     };
     (0..error_pairs.len()).map(std).collect()
@@ -108,20 +111,6 @@ fn noise_excess(joint: &Joint<'_>, samples: &[Sample]) -> f64 {
 /// Greatest excess of one stretch that counts: a knock in it is no property of the noise.
 const MOST_EXCESS: f64 = 1e4;
 
-/// Variance of the weighted mean of all sounds at each sample by white noise of variance 1 in each, `Σ w²/a² / (Σ w)²`.
-/// Differences between impacts add to it, but as waves as long as their own.
-fn mean_variances(samples: &[Sample]) -> Vec<f64> {
-    let weights = sums(&samples.iter().map(Sample::information).collect::<Vec<_>>());
-    let mut variances = vec![0.0; weights.len()];
-    for sample in samples {
-        let scale = sample.amplitude.powi(-2);
-        for ((v, w), all) in variances.iter_mut().zip(sample.information()).zip(&weights) {
-            *v += scale * (w / all).powi(2);
-        }
-    }
-    variances
-}
-
 /// Least attenuation: smaller values are scatter of the noise.
 const LEAST_ATTENUATION: f64 = 0.02;
 
@@ -130,15 +119,10 @@ const LEAST_ATTENUATION: f64 = 0.02;
 ///
 /// # Formula
 /// `1 − Σ w·G·v / (Σ w·s′² − (Σ w·s·s′)²/Σ w·s²)`, w one over the noise, v the variance of a
-/// template of one component at each sample, `G·v` that of its slope.
-fn attenuation(sample: &Sample, shape: &[f64], slopes: &[f64], variances: &[f64]) -> f64 {
+/// template of one component at each sample, `G·v` that of its slope as it is filtered.
+fn attenuation(sample: &Sample, shape: &[f64], slopes: &[f64], noise: f64) -> f64 {
     let normal = NormalEquations::of(&sample.sound, &sample.noise, shape, slopes);
-    let noise: f64 = variances
-        .iter()
-        .zip(&sample.noise)
-        .map(|(v, n)| v / n)
-        .sum();
-    (1.0 - slope_gain() * noise / normal.slope_information()).max(LEAST_ATTENUATION)
+    (1.0 - noise / normal.slope_information()).max(LEAST_ATTENUATION)
 }
 
 /// Standard error of one position by independent samples and by blocks.
