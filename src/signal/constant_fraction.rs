@@ -13,6 +13,9 @@ pub(crate) struct Crossing {
 
 /// The share of the peak: low enough to be early in the rise, high enough to be clear of the noise.
 const FRACTION: f64 = 0.3;
+/// An envelope that is this many standard deviations above what was before is no chance of the noise. Measured, against off: the
+/// worst twentieth of the suite's times by this discriminator alone is 330 µs for 430.
+const CLEAR: f64 = 5.0;
 /// Width of the smoothing, in seconds: about the rise of an impact.
 const SMOOTHING_S: f64 = 0.1e-3;
 /// The peak is sought this far before and after the coarse time, in seconds.
@@ -36,7 +39,11 @@ pub(crate) fn time(samples: &[f64], coarse: usize, sample_rate_hz: f64) -> Optio
         return None;
     }
     let threshold = level + FRACTION * (envelope[peak] - level);
-    let above = (from..=peak).rev().find(|&i| envelope[i] < threshold)? + 1;
+    // A ring of few modes falls below the threshold between its waves: the rise is the first that is clear of the noise.
+    let clear = threshold.max(level + CLEAR * spread);
+    let first = (from..peak).find(|&i| envelope[i] >= clear);
+    let first = first.unwrap_or(peak);
+    let above = (from..=first).rev().find(|&i| envelope[i] < threshold)? + 1;
     let slope = envelope[above] - envelope[above - 1];
     let position = real(above - 1) + (threshold - envelope[above - 1]) / slope;
     // The smoothed noise moves the crossing by spread/slope; the sampling of the envelope by some hundredths.
@@ -65,4 +72,51 @@ fn envelope(samples: &[f64], reach: usize) -> Vec<f64> {
             (sum / total).sqrt()
         })
         .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::SplitMix64;
+
+    const RATE: f64 = 48_000.0;
+    const ONSET: usize = 480;
+
+    /// A ring from the onset on in noise of standard deviation 1.
+    fn ring(frequency_hz: f64, level: impl Fn(f64) -> f64) -> Vec<f64> {
+        let mut rng = SplitMix64::new(4);
+        let sample = |i: usize| {
+            let after_s = real(i.saturating_sub(ONSET)) / RATE;
+            let phase = std::f64::consts::TAU * frequency_hz * after_s;
+            level(after_s) * phase.sin()
+        };
+        (0..2_000).map(|i| sample(i) + rng.normal()).collect()
+    }
+
+    #[test]
+    fn a_ring_that_is_loudest_after_some_waves_begins_with_the_first() {
+        let growing = |after_s: f64| 100.0 * (0.6 + after_s / 1e-3).min(1.0);
+        for frequency_hz in [500.0, 740.0, 2_330.0, 12_000.0] {
+            for coarse in [ONSET - 20, ONSET, ONSET + 20] {
+                let found = time(&ring(frequency_hz, growing), coarse, RATE).unwrap();
+                let after_s = (found.position - real(ONSET)) / RATE;
+                let quarter_s = 0.25 / frequency_hz;
+                assert!(
+                    (-0.1e-3..quarter_s).contains(&after_s),
+                    "{frequency_hz} Hz: {after_s} s"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_sound_that_is_hardly_clear_of_the_noise_begins_where_it_rises_to_its_peak() {
+        let found = time(&ring(3_000.0, |_| 4.0), ONSET, RATE).unwrap();
+        assert!((found.position - real(ONSET)).abs() < 1.5e-3 * RATE);
+    }
+
+    #[test]
+    fn noise_alone_has_no_beginning() {
+        assert_eq!(time(&vec![0.0; 2_000], ONSET, RATE), None);
+    }
 }
