@@ -3,7 +3,8 @@
 #
 #   ./wheels.sh OUT [TARGET…]     targets such as x86_64-unknown-linux-gnu, the default, and aarch64-unknown-linux-gnu
 #
-# Zig links against the old glibc, so no container is needed; a target's standard library comes by rustup.
+# Zig links against the old glibc, so no container is needed; a target's standard library comes by rustup. It fails where a
+# licence is missing.
 set -euo pipefail
 cd "$(dirname "$0")"
 out=$(realpath -m "${1:?where to put them}")
@@ -16,8 +17,35 @@ python3 -m venv "$environment"
 PATH="$environment/bin:$PATH"
 pip install --quiet 'maturin[zig]>=1.9.4,<2'
 
-maturin sdist --out "$out"
+# Puts the licences of a build for a target where pyproject.toml takes them from.
+put_licences() {
+    mkdir -p licences
+    cp ../LICENSE-APACHE ../LICENSE-MIT licences
+    ../.ci/licences python/Cargo.toml "$1" >licences/LICENSE-CRATES
+}
+
+# Fails where a list of names, from standard input, lacks a licence.
+check_licences() {
+    local names file
+    names=$(cat)
+    for file in licences/*; do
+        grep -qF "/$file" <<<"$names" || { echo "$1 lacks $file" >&2; exit 1; }
+    done
+}
+
+put_licences "$1"
+maturin sdist --out "$environment/sdist"
+archive=$(echo "$environment"/sdist/*.tar.gz)
+tar -tzf "$archive" | check_licences "$(basename "$archive")"
+
 for target in "$@"; do
-    maturin build --release --compression-level 9 --zig --target "$target" --compatibility manylinux_2_28 --out "$out"
+    put_licences "$target"
+    maturin build --release --compression-level 9 --zig --target "$target" --compatibility manylinux_2_28 --out "$environment/wheels"
 done
+for wheel in "$environment"/wheels/*.whl; do
+    python -m zipfile --list "$wheel" | check_licences "$(basename "$wheel")"
+done
+
+mkdir -p "$out"
+mv "$archive" "$environment"/wheels/*.whl "$out"
 ls -l "$out"
