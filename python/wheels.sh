@@ -4,7 +4,7 @@
 #   ./wheels.sh OUT [TARGET…]     targets such as x86_64-unknown-linux-gnu, the default, and aarch64-unknown-linux-gnu
 #
 # Zig links against the old glibc, so no container is needed; a target's standard library comes by rustup. It fails where a
-# licence is missing.
+# licence is missing, or the source distribution describes itself otherwise than here.
 set -euo pipefail
 cd "$(dirname "$0")"
 out=$(realpath -m "${1:?where to put them}")
@@ -33,10 +33,20 @@ check_licences() {
     done
 }
 
+# Writes the metadata of a project's folder.
+describe() {
+    (cd "$1" && maturin pep517 write-dist-info --metadata-directory "$2" --interpreter python)
+}
+
 put_licences "$1"
 maturin sdist --out "$environment/sdist"
 archive=$(echo "$environment"/sdist/*.tar.gz)
 tar -tzf "$archive" | check_licences "$(basename "$archive")"
+mkdir "$environment/source"
+tar -xzf "$archive" -C "$environment/source" --strip-components 1
+describe . "$environment/here"
+describe "$environment/source" "$environment/there"
+diff -r "$environment/here" "$environment/there"
 
 for target in "$@"; do
     put_licences "$target"
