@@ -4,7 +4,7 @@
 #   ./wheels.sh OUT [TARGET…]     targets such as x86_64-unknown-linux-gnu, the default, and aarch64-unknown-linux-gnu
 #
 # Zig links against the old glibc, so no container is needed; a target's standard library comes by rustup. It fails where a
-# licence is missing, or the source distribution describes itself otherwise than here.
+# licence is missing, a wheel names a folder of this machine, or the source distribution describes itself otherwise than here.
 set -euo pipefail
 cd "$(dirname "$0")"
 out=$(realpath -m "${1:?where to put them}")
@@ -48,12 +48,21 @@ describe . "$environment/here"
 describe "$environment/source" "$environment/there"
 diff -r "$environment/here" "$environment/there"
 
+# A panic names the place in the sources, from their own folder on.
+crates=${CARGO_HOME:-$HOME/.cargo}/registry/src
+sources=$(realpath ..)
+export RUSTFLAGS="${RUSTFLAGS:-} --remap-path-prefix=$crates=crates --remap-path-prefix=$sources=bounce-audio"
 for target in "$@"; do
     put_licences "$target"
     maturin build --release --compression-level 9 --zig --target "$target" --compatibility manylinux_2_28 --out "$environment/wheels"
 done
 for wheel in "$environment"/wheels/*.whl; do
     python -m zipfile --list "$wheel" | check_licences "$(basename "$wheel")"
+    python -m zipfile --extract "$wheel" "$environment/$(basename "$wheel" .whl)"
+    if grep -rlF -e "$crates" -e "$sources" "$environment/$(basename "$wheel" .whl)"; then
+        echo "$(basename "$wheel") names a folder of this machine" >&2
+        exit 1
+    fi
 done
 
 mkdir -p "$out"
