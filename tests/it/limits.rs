@@ -9,7 +9,7 @@ const LIMITS: [(&str, &str, &str); 31] = [
     (
         "sample rate",
         "analyze 159.wav",
-        "sample rate is 159, expected 4 times the lowest frequency that is listened to or more: 160 Hz by default",
+        "sample rate is 159, expected 160 Hz or more by default, 4 times the lowest frequency that is listened to",
     ),
     (
         "samples a second",
@@ -99,7 +99,7 @@ const LIMITS: [(&str, &str, &str); 31] = [
     (
         "listen: `--rate`",
         "listen - --raw s16le --rate 159",
-        "sample rate is 159, expected 4 times the lowest frequency that is listened to or more: 160 Hz by default",
+        "sample rate is 159, expected 160 Hz or more by default, 4 times the lowest frequency that is listened to",
     ),
     (
         "listen: `--channels`",

@@ -42,7 +42,7 @@ impl Filterbank {
             return Err(Error::argument(
                 "sample rate",
                 sample_rate_hz,
-                "4 times the lowest frequency that is listened to or more: 160 Hz by default",
+                "160 Hz or more by default, 4 times the lowest frequency that is listened to",
             ));
         }
         let mut hop = 1;
