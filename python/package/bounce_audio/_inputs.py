@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from . import _core
+from ._extras import needed_by
 from .errors import ArgumentError
 
 __all__ = ["Input", "Paths", "gather", "is_remote", "read", "sha256"]
@@ -52,7 +53,8 @@ def is_remote(name: str) -> bool:
 
 def read(name: str) -> bytes:
     """The bytes of a recording that fsspec reads."""
-    import fsspec
+    with needed_by(name, "dask"):
+        import fsspec
 
     with fsspec.open(name, "rb") as file:
         return bytes(file.read())
@@ -89,7 +91,8 @@ def _local(name: str) -> Input:
 
 
 def _remote(name: str) -> Iterator[Input]:
-    import fsspec
+    with needed_by(name, "dask"):
+        import fsspec
 
     store, path = fsspec.core.url_to_fs(name)
     if store.isdir(path):

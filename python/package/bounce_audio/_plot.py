@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._extras import needed_by
+
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
@@ -17,7 +19,8 @@ __all__ = ["restitution_by_speed"]
 def restitution_by_speed(drop: Drop, ax: Axes | None) -> Axes:
     """e of each impact against its speed with error bars, and e of the drop with its interval."""
     if ax is None:
-        import matplotlib.pyplot as plt
+        with needed_by("plot", "plot"):
+            import matplotlib.pyplot as plt
 
         ax = plt.subplots()[1]
     impacts = drop.impacts[~np.isnan(drop.impacts["restitution"])]

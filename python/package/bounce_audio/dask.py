@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from . import _core, _inputs, _shards
+from ._extras import needed_by
 from ._shards import Job, Shard
 from .errors import ArgumentError
 from .folders import RUN
@@ -70,11 +71,13 @@ def analyze_folder(
     whose recordings changed behind an unchanged size and time. A shard whose worker was killed is done again by another
     one; a recording that kills every worker has a line that says so. Results do not depend on the workers.
 
-    Raises `ArgumentError` for a setting out of range, or no recordings, and `ConnectionError` when the scheduler of the
-    client dies: what is done stays, and the same call with another client goes on.
+    Raises `ArgumentError` for a setting out of range, or no recordings, `ModuleNotFoundError` where Dask is not installed,
+    and `ConnectionError` when the scheduler of the client dies: what is done stays, and the same call with another client
+    goes on.
     """
     job = Job(
         out=os.path.abspath(out),
+    _check_installed(parquet)
         settings=as_json(settings),
         channel=channel_number(channel),
         rule=rule,
@@ -104,6 +107,15 @@ def analyze_folder(
 
 def _has(module: str) -> bool:
     return importlib.util.find_spec(module) is not None
+def _check_installed(parquet: bool | None) -> None:
+    """Raises what the first shard would, while nothing is written yet."""
+    with needed_by("analyze_folder", "dask"):
+        import dask  # noqa: F401
+    if parquet:
+        with needed_by("parquet=True", "parquet"):
+            import pyarrow  # noqa: F401
+
+
 
 
 def _say_what_is_run(shards: list[Shard], job: Job) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from . import _core
+from ._extras import needed_by
 from .errors import ArgumentError
 
 if TYPE_CHECKING:
@@ -49,9 +50,12 @@ def to_dataframe(out: str | os.PathLike[str]) -> pd.DataFrame:
 
     A recording without a drop, or that could not be analyzed, has one row with the reason; see the column `status`.
 
-    Raises `ArgumentError` if the run is not finished, `FileNotFoundError` if it wrote no Parquet.
+    Raises `ArgumentError` if the run is not finished, `FileNotFoundError` if it wrote no Parquet, `ModuleNotFoundError`
+    where pandas or pyarrow is not installed.
     """
-    import pandas as pd
+    with needed_by("to_dataframe", "pandas,parquet"):
+        import pandas as pd
+        import pyarrow  # noqa: F401
 
     shards = [shard.with_suffix(".parquet") for shard in _shards(Path(out))]
     return pd.concat(map(pd.read_parquet, shards), ignore_index=True)

@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from . import _notebook
 from ._documents import Document, structured
+from ._extras import needed_by
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -322,9 +323,10 @@ class Drop(Document):
     def to_dataframe(self) -> pd.DataFrame:
         """The impacts as a pandas table with a row for each, counted from 1.
 
-        Raises `ImportError` where pandas is not installed.
+        Raises `ModuleNotFoundError` where pandas is not installed.
         """
-        import pandas as pd
+        with needed_by("to_dataframe", "pandas"):
+            import pandas as pd
 
         rows = pd.RangeIndex(1, len(self.impacts) + 1, name="impact")
         columns = {name: self.impacts[name] for name in IMPACT.names or ()}
@@ -333,7 +335,7 @@ class Drop(Document):
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draws e of each impact against its speed in m/s, with e of the drop, and gives the axes.
 
-        `ax` are matplotlib axes to draw into; new ones by default. Raises `ImportError` where matplotlib is not installed.
+        `ax` are matplotlib axes to draw into; new ones by default. Raises `ModuleNotFoundError` where matplotlib is not installed.
         """
         from ._plot import restitution_by_speed
 
@@ -430,9 +432,10 @@ class Report(Document):
     def to_dataframe(self) -> pd.DataFrame:
         """A pandas table with a row for each impact of each drop, indexed by `drop` and `impact` from 1.
 
-        Raises `ImportError` where pandas is not installed.
+        Raises `ModuleNotFoundError` where pandas is not installed.
         """
-        import pandas as pd
+        with needed_by("to_dataframe", "pandas"):
+            import pandas as pd
 
         if not self.drops:
             return pd.DataFrame(columns=list(IMPACT.names or ()))
