@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import pickle
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -88,7 +89,7 @@ def test_e_is_drawn_against_the_speed(report: Report) -> None:
     matplotlib = pytest.importorskip("matplotlib")
     matplotlib.use("Agg")
     ax = report.drops[0].plot()
-    assert "speed" in ax.get_xlabel()
+    assert "speed" in ax.get_xlabel() and ax.get_xscale() == "log"
     points = ax.containers[0].lines[0].get_ydata()
     assert len(points) == np.isfinite(report.drops[0].impacts["restitution"]).sum()
     assert report.drops[0].plot(ax) is ax
@@ -97,6 +98,10 @@ def test_e_is_drawn_against_the_speed(report: Report) -> None:
 def test_times_alone_give_e(report: Report) -> None:
     impacts = report.drops[0].impacts
     drop = bounce_audio.fit(impacts["time_s"], impacts["time_std_s"], height_m=0.305)
+    impacts = report.drops[0].impacts.copy()
+    impacts["impact_speed_m_per_s"][1] = 0.0
+    standing = dataclasses.replace(report.drops[0], impacts=impacts)
+    assert standing.plot().get_xscale() == "linear"
     heard = report.drops[0].restitution
     assert drop.restitution is not None and heard is not None
     assert drop.restitution.value == pytest.approx(heard.value, abs=1e-4)

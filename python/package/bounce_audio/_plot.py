@@ -24,8 +24,9 @@ def restitution_by_speed(drop: Drop, ax: Axes | None) -> Axes:
 
         ax = plt.subplots()[1]
     impacts = drop.impacts[~np.isnan(drop.impacts["restitution"])]
+    speeds = impacts["impact_speed_m_per_s"]
     ax.errorbar(
-        impacts["impact_speed_m_per_s"],
+        speeds,
         impacts["restitution"],
         xerr=impacts["impact_speed_std_m_per_s"],
         yerr=impacts["restitution_std"],
@@ -37,7 +38,19 @@ def restitution_by_speed(drop: Drop, ax: Axes | None) -> Axes:
         ax.axhline(drop.restitution.value, color="C1", label="the drop")
         if drop.restitution.interval95 is not None:
             ax.axhspan(*drop.restitution.interval95, color="C1", alpha=0.2)
+    if speeds.size and (speeds > 0.0).all():
+        _scale_by_ratios(ax)
     ax.set_xlabel("impact speed (m/s)")
     ax.set_ylabel("coefficient of restitution")
     ax.legend()
     return ax
+
+
+def _scale_by_ratios(ax: Axes) -> None:
+    """As in the sheet of the drop: speeds fall by a ratio from bounce to bounce. Labels are plain numbers."""
+    from matplotlib.ticker import LogLocator, NullFormatter
+
+    ax.set_xscale("log")
+    ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    ax.xaxis.set_major_formatter("{x:g}")
+    ax.xaxis.set_minor_formatter(NullFormatter())
