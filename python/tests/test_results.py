@@ -64,7 +64,11 @@ def test_a_notebook_shows_answer_warnings_and_level(report: Report) -> None:
         assert "<li>" in page and warning.code
     sheet, level = drop.to_svg(), page[page.index("<svg") : page.rindex("</svg>") + 6]
     assert sheet is not None and len(level) < len(sheet)
-    assert ElementTree.fromstring(level).tag.endswith("svg")
+    picture = ElementTree.fromstring(level)
+    assert picture.tag.endswith("svg") and picture.get("viewBox")
+    # It shrinks with the page; the sheet as a file has its size alone.
+    assert picture.get("style") == "max-width: 100%; height: auto"
+    assert ElementTree.fromstring(sheet).get("style") is None
     assert ElementTree.fromstring(sheet).tag.endswith("svg")
 
 

@@ -89,4 +89,6 @@ def _svg(picture: Picture | None) -> str:
     except (OSError, BounceAudioError):
         # A file that was there when it was analyzed may be gone; the answer stands without its picture.
         return ""
-    return f'<div style="max-width: 900px">{svg or ""}</div>'
+    # The picture has a size of its own: where there is less room it shrinks.
+    fitting = (svg or "").replace("<svg ", '<svg style="max-width: 100%; height: auto" ', 1)
+    return f'<div style="max-width: 900px">{fitting}</div>'
