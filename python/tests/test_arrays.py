@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import numpy.typing as npt
 import pytest
@@ -96,6 +98,8 @@ def test_columns_of_channels_are_to_be_transposed(pingpong: Synthetic) -> None:
         (np.zeros(5, bool), "bool"),
         (["a", "b"], "floats or integers"),
         ([None, 1.0], "object"),
+        ([[0.0], [0.0, 1.0]], "rows of different lengths"),
+        (np.ma.masked_array(np.zeros(5), mask=True), "masked.*filled"),
     ],
 )
 def test_what_are_no_samples_is_refused(samples: npt.ArrayLike, said: str) -> None:
@@ -125,3 +129,24 @@ def test_all_samples_may_be_no_numbers() -> None:
 def test_doubles_too_large_are_said_too() -> None:
     report = bounce_audio.analyze(np.full(48_000, 1e300), 48_000)
     assert "repaired" in [w.code for w in report.warnings]
+
+
+@pytest.mark.parametrize(("dtype", "bits"), [("i8", 16), ("i8", 24), ("i8", 32), ("i4", 16)])
+def test_integers_of_fewer_bits_than_their_type_are_warned_of(dtype: str, bits: int) -> None:
+    samples = np.zeros(48_000, dtype)
+    samples[100] = 2 ** (bits - 1) - 1
+    with pytest.warns(UserWarning, match=f"reach only {samples[100]} of .*np.int16") as warned:
+        bounce_audio.analyze(samples, 48_000)
+    # The line that called.
+    assert warned[0].filename == __file__
+
+
+def test_integers_as_wide_as_their_type_are_not_warned_of() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for dtype, peak in (("i2", 1), ("i4", 2**23 - 1), ("i8", 2**62), ("i8", 0)):
+            samples = np.zeros(48_000, dtype)
+            samples[100] = peak
+            bounce_audio.analyze(samples, 48_000)
+        # A block may be quiet.
+        bounce_audio.Listener(48_000).push(np.ones(480, np.int32))

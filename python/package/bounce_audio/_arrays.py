@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,35 @@ import numpy.typing as npt
 
 from .errors import ArgumentError
 
-__all__ = ["rows"]
+__all__ = ["array_of", "rows", "warn_of_width"]
+
+#: Least bits of integers that may hold those of a narrower type.
+_WIDE = 32
+
+
+def array_of(name: str, values: npt.ArrayLike) -> npt.NDArray[Any]:
+    """Values as an array, whose name is that of the argument."""
+    if isinstance(values, np.ma.MaskedArray):
+        raise ArgumentError(f"{name}: a masked array, expected one without a mask: fill it by its `filled`")
+    try:
+        return np.asarray(values)
+    except ValueError:
+        raise ArgumentError(f"{name}: rows of different lengths, expected an array") from None
+
+
+def warn_of_width(samples: npt.NDArray[Any]) -> None:
+    """Warns of wide integers whose peak would be silence at their width, as that of 16 bits in 64 is."""
+    bits = 8 * samples.dtype.itemsize
+    if samples.dtype.kind != "i" or bits < _WIDE:
+        return
+    peak = max(int(samples.max()), -int(samples.min()))
+    # 16 bits in 32. Samples of 24 bits are louder but for the quietest recordings.
+    if 0 < peak <= 2 ** (bits - 17):
+        warnings.warn(
+            f"samples of {samples.dtype} reach only {peak} of 2**{bits - 1}: were they of fewer bits? "
+            "Pass those of 16 bits as np.int16, others divided by their full scale",
+            stacklevel=3,
+        )
 
 
 def rows(
@@ -19,7 +48,7 @@ def rows(
 
     Rows of 32-bit floats one after another are not copied.
     """
-    array = np.asarray(samples)
+    array = array_of("samples", samples)
     encoding = _encoding(array.dtype)
     if array.ndim == 1:
         array = array[np.newaxis, :]

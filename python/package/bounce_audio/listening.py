@@ -42,7 +42,8 @@ def analyze(
 
     Other threads of the program go on meanwhile.
 
-    Raises `ArgumentError` for a wrong shape, type or setting, or a rate too low to listen at.
+    Raises `ArgumentError` for a wrong shape, type or setting, or a rate too low to listen at. Warns (`UserWarning`) of
+    integers of 32 or 64 bits that are all but silent, as samples of 16 bits in a wider type are.
 
     >>> import bounce_audio
     >>> made = bounce_audio.synth("pingpong")
@@ -54,9 +55,11 @@ def analyze(
     >>> drop.impacts["time_s"][:3].round(3)
     array([0.7  , 1.156, 1.57 ])
     """
-    rows, encoding = _arrays.rows(samples)
+    array = _arrays.array_of("samples", samples)
+    rows, encoding = _arrays.rows(array)
     if rows.size == 0:
-        raise ArgumentError(f"samples are empty: their shape is {np.shape(samples)}")
+        raise ArgumentError(f"samples are empty: their shape is {array.shape}")
+    _arrays.warn_of_width(array)
     document, pictures = _core.analyze(
         rows,
         _rate(rate),
