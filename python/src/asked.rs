@@ -60,7 +60,12 @@ impl Asked {
 fn question(document: &mut Map<String, Value>) -> PyResult<Option<Question>> {
     let from_m = height(document, "predict_from_m")?;
     let reach_m = height(document, "reach_m")?;
-    let bounce = bounce(number(document, "reach_bounce")?)?;
+    let reach_bounce = number(document, "reach_bounce")?;
+    if let (Some(bounce), None) = (reach_bounce, reach_m) {
+        let said = format!("reach_bounce is {bounce} without reach_m, the height that it reaches");
+        return Err(ArgumentError::new_err(said));
+    }
+    let bounce = bounce(reach_bounce)?;
     let question = Question {
         from_m,
         reach: reach_m.map(|height_m| (bounce, height_m)),

@@ -11,6 +11,7 @@ import_exception!(bounce_audio.errors, RecordingError);
 
 /// The exception of an error, by its kind; its text names the file if there is one.
 pub(crate) fn raised(error: Error) -> PyErr {
+    let error = by_keyword(error);
     let said = error.to_string();
     let (file, cause) = innermost(None, error);
     match cause {
@@ -19,6 +20,44 @@ pub(crate) fn raised(error: Error) -> PyErr {
         Error::NoRoot { .. } => NoSolutionError::new_err(said),
         Error::Wav { .. } | Error::Recording { .. } => RecordingError::new_err(said),
         _ => InternalError::new_err(said),
+    }
+}
+
+/// The same with the argument named as Python does.
+fn by_keyword(error: Error) -> Error {
+    match error {
+        Error::Argument {
+            argument,
+            got,
+            expected,
+        } => Error::Argument {
+            argument: keyword(argument),
+            got,
+            expected,
+        },
+        Error::InFile { file, source } => Error::InFile {
+            file,
+            source: Box::new(by_keyword(*source)),
+        },
+        other => other,
+    }
+}
+
+/// The keyword of a setting that the library names by a word for people.
+fn keyword(argument: &'static str) -> &'static str {
+    match argument {
+        "clock error" => "clock_std",
+        "contact time" => "contact_time_s",
+        "diameter" => "diameter_m",
+        "end" => "end_s",
+        "gravity" => "gravity_m_per_s2",
+        "height" => "height_m",
+        "height error" => "height_std_m",
+        "mass" => "mass_kg",
+        "start" => "start_s",
+        "time error" => "time_std_s",
+        "time scale" => "time_scale",
+        other => other,
     }
 }
 

@@ -6,6 +6,7 @@ import dataclasses
 import pickle
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -97,25 +98,27 @@ def test_e_is_drawn_against_the_speed(report: Report) -> None:
     points = ax.containers[0].lines[0].get_ydata()
     assert len(points) == np.isfinite(report.drops[0].impacts["restitution"]).sum()
     assert report.drops[0].plot(ax) is ax
+    impacts = report.drops[0].impacts.copy()
+    impacts["impact_speed_m_per_s"][1] = 0.0
+    standing = dataclasses.replace(report.drops[0], impacts=impacts)
+    assert standing.plot().get_xscale() == "linear"
 
 
 def test_times_alone_give_e(report: Report) -> None:
     impacts = report.drops[0].impacts
     drop = bounce_audio.fit(impacts["time_s"], impacts["time_std_s"], height_m=0.305)
-    impacts = report.drops[0].impacts.copy()
-    impacts["impact_speed_m_per_s"][1] = 0.0
-    standing = dataclasses.replace(report.drops[0], impacts=impacts)
-    assert standing.plot().get_xscale() == "linear"
     heard = report.drops[0].restitution
     assert drop.restitution is not None and heard is not None
     assert drop.restitution.value == pytest.approx(heard.value, abs=1e-4)
     assert drop.evidence_nats is None and np.isnan(drop.impacts["level_db"]).all()
     for times, errors, said in [
-        ([1.0], 1e-3, "times is 1 in drop 1"),
+        ([1.0], 1e-3, "times_s has 1, expected two or more"),
         ([2.0, 1.0], 1e-3, "expected times that grow"),
-        ([1.0, 2.0], 0.0, "time error is 0"),
-        ([1.0, 2.0], [1e-3] * 3, "errors have shape"),
-        ([[1.0], [2.0]], 1e-3, "times have shape"),
+        ([1.0, 2.0], 0.0, "time_std_s is 0"),
+        ([1.0, 2.0], [1e-3] * 3, "time_std_s has shape"),
+        ([[1.0], [2.0]], 1e-3, "times_s has shape"),
+        ([[1.0], [2.0, 3.0]], 1e-3, "times_s: rows of different lengths"),
+        (["a", "b"], 1e-3, "times_s has type .*, expected numbers"),
     ]:
         with pytest.raises(bounce_audio.ArgumentError, match=said):
             bounce_audio.fit(times, errors)
@@ -132,6 +135,10 @@ def test_drops_are_compared(report: Report) -> None:
     for few in ([], [pair], [pair, (0.9, 0.0)]):
         with pytest.raises(bounce_audio.ArgumentError):
             bounce_audio.compare(few)
+    alone: Any
+    for alone in (report, drop, [0.9], [(1, 2, 3)], ["ab"]):
+        with pytest.raises(bounce_audio.ArgumentError, match="report.drops"):
+            bounce_audio.compare(alone)
 
 
 def test_rules_can_be_asked_for(pingpong: Synthetic) -> None:

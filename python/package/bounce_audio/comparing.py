@@ -50,13 +50,15 @@ def compare(
     Each item is a drop, a report, of which all drops count, or a value with its standard error. Drops whose e has no error
     are left out. `outliers` counts in the order of what is left.
 
-    Raises `ArgumentError` for fewer than two measurements, or an error that is not above 0.
+    Raises `ArgumentError` for fewer than two measurements, an error that is not above 0, or what is none of these.
 
     >>> import bounce_audio
     >>> together = bounce_audio.compare([(0.90, 0.01), (0.91, 0.01), (0.92, 0.01)])
     >>> round(together.mean, 3), round(together.birge, 3)
     (0.91, 1.0)
     """
+    if isinstance(measurements, (Report, Drop)):
+        raise ArgumentError("compare takes several in a list: of one report they are report.drops")
     pairs = [pair for item in measurements for pair in _pairs(item)]
     if len(pairs) < 2:
         raise ArgumentError(f"there are {len(pairs)} measurements, expected two or more")
@@ -72,8 +74,14 @@ def _pairs(item: Report | Drop | tuple[float, float]) -> list[tuple[float, float
     if isinstance(item, Drop):
         e = item.restitution
         return [(e.value, e.std_error)] if e is not None and e.std_error else []
-    value, std = item
-    return [(float(value), float(std))]
+    try:
+        value, std = item
+        return [(float(value), float(std))]
+    except (TypeError, ValueError):
+        raise ArgumentError(
+            f"{item!r} is no value with its error, such as (0.9, 0.01), and neither a drop nor a report: "
+            "those of a report are report.drops"
+        ) from None
 
 
 @dataclass(frozen=True, eq=False)

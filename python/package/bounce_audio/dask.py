@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Run", "analyze_folder"]
 
+_OPTIONS = ("files_per_shard", "parquet", "verify", "client", "workers", "progress")
+
 
 @dataclass(frozen=True)
 class Run:
@@ -75,10 +77,10 @@ def analyze_folder(
     and `ConnectionError` when the scheduler of the client dies: what is done stays, and the same call with another client
     goes on.
     """
+    _check_installed(parquet)
     job = Job(
         out=os.path.abspath(out),
-    _check_installed(parquet)
-        settings=as_json(settings),
+        settings=as_json(settings, "channel", "rule", *_OPTIONS),
         channel=channel_number(channel),
         rule=rule,
         parquet=_has("pyarrow") if parquet is None else parquet,
@@ -105,8 +107,6 @@ def analyze_folder(
     return Run(job.out, len(inputs), len(shards), len(before))
 
 
-def _has(module: str) -> bool:
-    return importlib.util.find_spec(module) is not None
 def _check_installed(parquet: bool | None) -> None:
     """Raises what the first shard would, while nothing is written yet."""
     with needed_by("analyze_folder", "dask"):
@@ -116,6 +116,8 @@ def _check_installed(parquet: bool | None) -> None:
             import pyarrow  # noqa: F401
 
 
+def _has(module: str) -> bool:
+    return importlib.util.find_spec(module) is not None
 
 
 def _say_what_is_run(shards: list[Shard], job: Job) -> None:

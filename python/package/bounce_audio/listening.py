@@ -15,12 +15,15 @@ from ._documents import build
 from ._notebook import Picture
 from .errors import ArgumentError
 from .results import Drop, Report, Told
-from .settings import Channel, Settings, as_json, channel_number, number
+from .settings import Channel, Settings, as_json, channel_number, number, whole
 
 if TYPE_CHECKING:
-    from typing_extensions import Unpack
+    from typing_extensions import Buffer, Unpack
 
 __all__ = ["Listener", "analyze", "analyze_bytes", "analyze_file", "fit"]
+
+#: What the number of channels can have in a file.
+_MOST_CHANNELS = 2**16 - 1
 
 
 def analyze(
@@ -63,7 +66,7 @@ def analyze(
     document, pictures = _core.analyze(
         rows,
         _rate(rate),
-        as_json(settings),
+        as_json(settings, "channel", "rule", "name"),
         channel=channel_number(channel),
         rule=rule,
         name=name,
@@ -94,7 +97,7 @@ def analyze_file(
     """
     document, pictures = _core.analyze_file(
         os.fsdecode(path),
-        as_json(settings),
+        as_json(settings, "channel", "rule"),
         channel=channel_number(channel),
         rule=rule,
     )
@@ -102,7 +105,7 @@ def analyze_file(
 
 
 def analyze_bytes(
-    content: bytes,
+    content: Buffer,
     *,
     name: str = "bytes",
     channel: Channel = "best",
@@ -111,15 +114,17 @@ def analyze_bytes(
 ) -> Report:
     """Listens to a recording whose file is in memory, such as one that came over a network. All else is as in `analyze_file`.
 
+    `content` is `bytes`, or whatever else has bytes, such as a `bytearray` or a `memoryview`, which is copied.
+
     >>> import bounce_audio
     >>> bounce_audio.analyze_bytes(b"no recording", name="a.wav")
     Traceback (most recent call last):
     bounce_audio.errors.RecordingError: a.wav: not a readable recording: ...
     """
     document = _core.analyze_bytes(
-        content,
+        _bytes(content),
         name,
-        as_json(settings),
+        as_json(settings, "channel", "rule", "name"),
         channel=channel_number(channel),
         rule=rule,
     )
@@ -143,15 +148,14 @@ def fit(
     >>> round(drop.restitution.value, 2)
     0.8
     """
-    times = np.asarray(times_s, dtype=np.float64)
+    times, stds = _numbers("times_s", times_s), _numbers("time_std_s", time_std_s)
     if times.ndim != 1:
-        raise ArgumentError(f"times have shape {times.shape}, expected (n,)")
-    try:
-        errors = np.broadcast_to(np.asarray(time_std_s, dtype=np.float64), times.shape)
-    except ValueError:
-        raise ArgumentError(
-            f"errors have shape {np.shape(time_std_s)}, expected one number or {times.shape}"
-        ) from None
+        raise ArgumentError(f"times_s has shape {times.shape}, expected (n,)")
+    if times.size < 2:
+        raise ArgumentError(f"times_s has {times.size}, expected two or more, which bound a flight")
+    if stds.shape not in ((), times.shape):
+        raise ArgumentError(f"time_std_s has shape {stds.shape}, expected one number or {times.shape}")
+    errors = np.broadcast_to(stds, times.shape)
     document = _core.fit(times.tolist(), errors.tolist(), as_json(settings))
     return build(Drop, json.loads(document))
 
@@ -181,8 +185,9 @@ class Listener:
         rule: str | None = None,
         **settings: Unpack[Settings],
     ) -> None:
-        self._core = _core.Listener(_rate(rate), channels, as_json(settings), rule)
-        self._channels = channels
+        self._channels = whole("channels", channels, 1, _MOST_CHANNELS)
+        document = as_json(settings, "channels", "rule")
+        self._core = _core.Listener(_rate(rate), self._channels, document, rule)
         self._encoding = "32-bit float"
         self.report = None
 
@@ -215,6 +220,24 @@ class Listener:
             yield from self.push(block)
         yield from _told(self._core.rest())
         self.finish(name)
+
+
+def _numbers(name: str, values: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    array = _arrays.array_of(name, values)
+    try:
+        return array.astype(np.float64)
+    except (TypeError, ValueError):
+        raise ArgumentError(f"{name} has type {array.dtype}, expected numbers") from None
+
+
+def _bytes(content: Buffer) -> bytes:
+    if isinstance(content, bytes):
+        return content
+    try:
+        return bytes(memoryview(content))
+    except TypeError:
+        kind = type(content).__name__
+        raise ArgumentError(f"content is of type {kind}, expected bytes; analyze_file listens to a file") from None
 
 
 def _rate(rate: float) -> float:

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import math
+import numbers
+import operator
 from collections.abc import Mapping
-from typing import Literal, TypedDict
+from typing import Literal, TypedDict, get_args, get_type_hints
 
 from .errors import ArgumentError
 
@@ -58,21 +61,30 @@ class Settings(TypedDict, total=False):
     reach_bounce: int
 
 
-def as_json(settings: Mapping[str, object]) -> str:
-    """The document of settings, for the library to check."""
-    known = Settings.__annotations__
+#: Settings that are a word, and which there are.
+_WORDS = {name: get_args(get_type_hints(Settings)[name]) for name in ("model", "timing")}
+
+
+def as_json(settings: Mapping[str, object], *more: str) -> str:
+    """The document of settings, for the library to check; `more` are what else the caller takes by keyword."""
     for name in settings:
-        if name not in known:
-            raise ArgumentError(f"{name} is no setting; there are {', '.join(known)}")
+        if name not in Settings.__annotations__:
+            raise _unknown(name, (*Settings.__annotations__, *more))
     return json.dumps({name: _plain(name, value) for name, value in settings.items()})
 
 
+def _unknown(name: str, known: tuple[str, ...]) -> ArgumentError:
+    near = difflib.get_close_matches(name, known, 1)
+    meant = f"did you mean {near[0]}? There" if near else "there"
+    return ArgumentError(f"{name} is no setting: {meant} are {', '.join(known)}")
+
+
 def _plain(name: str, value: object) -> object:
-    if value is None or name not in ("model", "timing"):
+    if name not in _WORDS:
         return number(name, value)
-    if isinstance(value, str):
+    if value in _WORDS[name]:
         return value
-    raise ArgumentError(f"{name} is {value!r}, expected a name")
+    raise ArgumentError(f"{name} is {value!r}, expected one of {', '.join(_WORDS[name])}")
 
 
 def number(name: str, value: object) -> float | None:
@@ -90,12 +102,24 @@ def number(name: str, value: object) -> float | None:
     return as_float
 
 
+def whole(name: str, value: object, least: int, most: int) -> int:
+    """A whole number within limits, of any type that has only such."""
+    try:
+        found = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
+        raise ArgumentError(f"{name} is {value!r}, expected a whole number") from None
+    if not least <= found <= most:
+        raise ArgumentError(f"{name} is {found}, expected {least} to {most}")
+    return found
+
+
 def channel_number(channel: Channel) -> int | None:
     """The number of the channel; None for the best."""
     if channel == "best":
         return None
-    if isinstance(channel, int) and not isinstance(channel, bool) and channel > 0:
-        return channel
+    is_whole = isinstance(channel, numbers.Integral) and not isinstance(channel, bool)
+    if is_whole and 0 < channel < 2**32:
+        return int(channel)
     raise ArgumentError(
         f'channel is {channel!r}, expected "best" or the number of a channel, from 1'
     )

@@ -10,6 +10,7 @@ from . import _core
 from ._documents import Document, build
 from .errors import ArgumentError
 from .results import Warning
+from .settings import whole
 
 __all__ = [
     "BallParameters",
@@ -184,7 +185,8 @@ def solve(
     ball = (gravity_m_per_s2, mass_kg, errors)
     match (bounces, total_time_s, height_m, restitution, contact_time_s):
         case (int(), _, _, None, _) if total_time_s is not None and height_m is not None:
-            numbers = (bounces, total_time_s, height_m, contact_time_s)
+            count = whole("bounces", bounces, 0, 2**32 - 1)
+            numbers = (count, total_time_s, height_m, contact_time_s)
             document = _core.solve_total_time(*numbers, *ball)
             return build(TotalTimeSolution, json.loads(document))
         case (None, None, _, _, _) if restitution is not None and contact_time_s is not None:

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from . import _core
 from ._documents import Document, build
 from .errors import ArgumentError
+from .settings import whole
 
 __all__ = ["DropTruth", "Synthetic", "Truth", "presets", "synth"]
 
@@ -87,7 +88,7 @@ def synth(scene: str | os.PathLike[str] = "pingpong", *, seed: int = 1) -> Synth
 
     `scene` is the name of a preset (see `presets`), or the path of a scene as TOML, whose name ends in `.toml`.
 
-    Raises `ArgumentError` for a name that is not known or a scene out of range, `OSError` if a file cannot be read.
+    Raises `ArgumentError` for a name that is not known, a seed that is no whole number of 64 bits, or a scene out of range, `OSError` if a file cannot be read.
 
     >>> import bounce_audio
     >>> made = bounce_audio.synth("steel", seed=7)
@@ -99,7 +100,7 @@ def synth(scene: str | os.PathLike[str] = "pingpong", *, seed: int = 1) -> Synth
     if not is_file and name not in presets():
         raise ArgumentError(f"scene is '{name}', expected a name of presets() or a path that ends in .toml")
     text = Path(name).read_text("utf-8") if is_file else name
-    rows, document = _core.synth(text, is_file, seed)
+    rows, document = _core.synth(text, is_file, whole("seed", seed, 0, 2**64 - 1))
     truth = build(Truth, json.loads(document))
     samples = rows[0] if len(rows) == 1 else rows
     return Synthetic(samples, truth.sample_rate_hz, truth)
