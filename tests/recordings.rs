@@ -4,8 +4,17 @@
     clippy::unwrap_used,
     clippy::panic,
     clippy::expect_used,
-    reason = "a failing test should panic"
+    clippy::cast_precision_loss,
+    reason = "a failing test should panic; shifts are small"
 )]
+
+#[path = "../examples/invariance/compare.rs"]
+mod compare;
+#[path = "../examples/invariance/recording.rs"]
+#[expect(dead_code, reason = "no quiet is sought here")]
+mod recording;
+#[path = "../examples/invariance/variants.rs"]
+mod variants;
 
 use std::path::PathBuf;
 
@@ -13,10 +22,14 @@ use bounce_audio::audio;
 use bounce_audio::report::{Analysis, Drop, Status};
 use bounce_audio::{Settings, analyze_clearest};
 
-fn listen(name: &str, settings: &Settings) -> Analysis {
+fn folder() -> PathBuf {
     let folder = std::env::var_os("BOUNCE_AUDIO_RECORDINGS")
         .expect("BOUNCE_AUDIO_RECORDINGS names their folder");
-    let recording = audio::read_file(&PathBuf::from(folder).join(name)).unwrap();
+    PathBuf::from(folder)
+}
+
+fn listen(name: &str, settings: &Settings) -> Analysis {
+    let recording = audio::read_file(&folder().join(name)).unwrap();
     analyze_clearest(
         &recording.channels,
         f64::from(recording.sample_rate_hz),
@@ -190,4 +203,49 @@ fn complaint(truth: &serde_json::Value, analysis: &Analysis) -> Option<String> {
         && e.is_some_and(|e| (range[0]..=range[1]).contains(&e));
     let count = onsets.len();
     (!whole).then(|| format!("{} impacts, {hits} of {count} onsets, e {e:?}", times.len()))
+}
+
+#[test]
+fn the_same_sound_gives_the_same_answer_wherever_and_however_loud_it_is() {
+    let pauses = variants::Pauses {
+        drops: None,
+        quiet: None,
+    };
+    for name in [
+        "erickson-pingpong.wav",
+        "golf-phone.m4a",
+        "pfe-0.5m.wav",
+        "pingpong-e-changes.mp3",
+        "pingpong-odd-bounces.wav",
+        "table-six-drops.wav",
+        "thuds-stereo.wav",
+    ] {
+        let read = audio::read_file(&folder().join(name)).unwrap();
+        let original = recording::Recording {
+            channels: read.channels,
+            rate: f64::from(read.sample_rate_hz),
+        };
+        let heard = |recording: &recording::Recording| {
+            let settings = Settings::default();
+            let heard = analyze_clearest(&recording.channels, recording.rate, &settings);
+            heard.unwrap().1
+        };
+        let answer = heard(&original);
+        for change in variants::CHANGES {
+            let Some(variant) = change.of(&original, &pauses) else {
+                continue;
+            };
+            let other = heard(&variant.recording);
+            let shift_s = variant.shift as f64 / original.rate;
+            let off = compare::difference(&answer, other.drops.iter(), shift_s);
+            let (lost, gained) = (off.impacts_lost, off.impacts_gained);
+            assert_eq!((lost, gained), (0, 0), "{name}, {change}");
+            assert_eq!(
+                (off.drops_lost, off.drops_gained),
+                (0, 0),
+                "{name}, {change}"
+            );
+            assert!(off.restitution() < 0.02, "{name}, {change}: {off:?}");
+        }
+    }
 }

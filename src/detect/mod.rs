@@ -14,6 +14,8 @@ mod pursuit;
 mod quantization;
 mod running_mean;
 
+use std::ops::Range;
+
 use crate::Error;
 use crate::event::Event;
 use crate::signal::filterbank::Filterbank;
@@ -72,19 +74,13 @@ impl Detector {
     pub fn events(&self, sound: &Sound<'_>) -> Vec<Event> {
         let samples = sound.samples;
         let hop = self.bank.hop();
-        // Whole hops, so that the grids of neighbouring segments are one grid.
-        let hops = |span_s| samples_in(span_s, self.sample_rate_hz).div_ceil(hop) * hop;
-        let (segment, margin) = (hops(SEGMENT_S), hops(MARGIN_S));
+        // The grid belongs to the sound and not to the recording: hops and segments lie at whole steps from its loudest sample.
+        let anchor = loudest(samples);
+        let first = anchor % hop;
+        let margin = self.whole_hops(MARGIN_S);
         let mut found = Vec::new();
-        let mut start = 0;
-        while start < samples.len() {
-            // A short remainder joins the last segment: too little to learn an ordinary level from.
-            let end = if samples.len() - start < segment + segment / 2 {
-                samples.len()
-            } else {
-                start + segment
-            };
-            let from = start.saturating_sub(margin);
+        for Range { start, end } in self.segments(samples.len(), anchor) {
+            let from = start.saturating_sub(margin).max(first);
             let to = (end + margin).min(samples.len());
             let inside = (start - from) / hop..(end - from).div_ceil(hop);
             let segment = Sound {
@@ -93,20 +89,34 @@ impl Detector {
                 ..*sound
             };
             self.add_events(&segment, inside, &mut found);
-            start = end;
         }
         // The sound of a peak may begin before that of the peak before it.
         found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
         found
     }
 
+    /// Samples of a span, in whole hops, so that the grids of neighbouring segments are one grid.
+    fn whole_hops(&self, span_s: f64) -> usize {
+        samples_in(span_s, self.sample_rate_hz).next_multiple_of(self.bank.hop())
+    }
+
+    /// The segments, as ranges of samples, from the first whole hop on. A short remainder at either end joins its neighbour:
+    /// too little to learn an ordinary level from.
+    fn segments(&self, length: usize, anchor: usize) -> Vec<Range<usize>> {
+        let segment = self.whole_hops(SEGMENT_S);
+        let (mut start, mut border) = (anchor % self.bank.hop(), anchor % segment + segment);
+        let mut segments = Vec::new();
+        while border + segment / 2 <= length {
+            segments.push(start..border);
+            start = border;
+            border += segment;
+        }
+        segments.push(start..length);
+        segments
+    }
+
     /// Adds the events of one segment that lie in a range of its hops.
-    fn add_events(
-        &self,
-        segment: &Sound<'_>,
-        inside: std::ops::Range<usize>,
-        found: &mut Vec<Event>,
-    ) {
+    fn add_events(&self, segment: &Sound<'_>, inside: Range<usize>, found: &mut Vec<Event>) {
         let evidence = change_point::Evidence::of(&self.bank, segment.samples);
         let separation = SEPARATION_S / self.bank.hop_s();
         let peaks = peaks::pick(&evidence.total, separation, WEAKEST);
@@ -119,6 +129,14 @@ impl Detector {
             profile: evidence.profile(p.index),
         }));
     }
+}
+
+/// The first of the loudest samples; 0 of none.
+fn loudest(samples: &[f32]) -> usize {
+    let sizes = samples.iter().map(|x| x.abs()).enumerate().rev();
+    sizes
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map_or(0, |(i, _)| i)
 }
 
 /// Strongest events of a channel that its clarity sums.
@@ -177,6 +195,36 @@ mod tests {
             let events = detector.events(&sound);
             assert!(events.len() > 20, "{}", events.len());
             assert!(events.is_sorted_by_key(|e| e.time_s), "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn events_move_with_the_sound_by_any_number_of_samples() {
+        const RATE: f64 = 48_000.0;
+        let detector = Detector::new(RATE).unwrap();
+        let original: Vec<f32> = (0..30).flat_map(clicks_and_thumps).collect();
+        let heard = |zeros: usize| {
+            let samples = [&vec![0.0; zeros], &original[..]].concat();
+            let mut events = detector.events(&Sound::from_start(&samples, RATE));
+            for event in &mut events {
+                event.time_s -= real(zeros) / RATE;
+            }
+            // Zeros before a sound end where it begins.
+            events.retain(|e| e.time_s > 0.05);
+            events
+        };
+        assert!(detector.bank().hop() > 1);
+        let expected = heard(0);
+        for zeros in [1, 5, 100, 10_007] {
+            let found = heard(zeros);
+            assert_eq!(found.len(), expected.len(), "{zeros} zeros");
+            // Of two hops that begin a sound as well the other may be taken.
+            let pairs = found.iter().zip(&expected);
+            let same = pairs.filter(|(a, b)| {
+                let stronger = (a.strength / b.strength).ln();
+                (a.time_s - b.time_s).abs() < 1e-9 && stronger.abs() < 0.01
+            });
+            assert!(100 * same.count() >= 98 * found.len(), "{zeros} zeros");
         }
     }
 }

@@ -1,5 +1,7 @@
 //! A stretch of a recording: the one place where seconds of the recording become samples of the stretch and back.
 
+use std::ops::Range;
+
 use crate::units::{real, samples_in};
 
 /// Consecutive samples of one channel of a recording.
@@ -54,6 +56,14 @@ impl<'a> Sound<'a> {
         let at = |time_s: f64| self.sample_at(time_s).min(self.samples.len());
         &self.samples[at(from_s)..at(to_s).max(at(from_s))]
     }
+}
+
+/// The samples from the first to the last that is not 0.
+#[must_use]
+pub fn heard(samples: &[f32]) -> Range<usize> {
+    let sounds = |x: &f32| *x != 0.0;
+    let first = samples.iter().position(sounds).unwrap_or(samples.len());
+    first..samples.iter().rposition(sounds).map_or(first, |k| k + 1)
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! A whitening filter, by linear prediction of the noise of this recording.
 
 use super::interpolate::correlated;
-use super::sound::Sound;
+use super::sound::{Sound, heard};
 use crate::linalg::{Cholesky, dot};
 use crate::units::{real, samples_in, whole};
 
@@ -155,13 +155,6 @@ fn quiet_frames<'a>(sound: &Sound<'a>, span_s: (f64, f64)) -> (Vec<&'a [f32]>, f
     frames.truncate(keep);
     let frames = frames.into_iter().map(|(_, f)| f).collect();
     (frames, f64::from(peak))
-}
-
-/// The samples from the first to the last that is not 0.
-fn heard(samples: &[f32]) -> std::ops::Range<usize> {
-    let sounds = |x: &f32| *x != 0.0;
-    let first = samples.iter().position(sounds).unwrap_or(samples.len());
-    first..samples.iter().rposition(sounds).map_or(first, |k| k + 1)
 }
 
 /// The loudest sample near a time.

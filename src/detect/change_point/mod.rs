@@ -1,10 +1,13 @@
 //! Change-point evidence: the generalised log-likelihood ratio, at each moment, of a rise of the energy against none.
 
+use std::ops::Range;
+
 use super::quantization::quantization_density;
 use super::running_mean::{FALLING_SHARE, mean_ratios};
 use crate::event::Profile;
 use crate::signal::filterbank::{Band, Filterbank};
 use crate::signal::logarithm::ln_from_one;
+use crate::signal::sound::heard;
 use crate::units::{narrow, real};
 
 /// Shortest window after the moment, in seconds: the ring of one impact lasts longer.
@@ -59,12 +62,17 @@ impl Evidence {
     pub fn of(bank: &Filterbank, samples: &[f32]) -> Self {
         let mut total = vec![0.0; samples.len().div_ceil(bank.hop())];
         let quantization = quantization_density(samples, bank);
+        let heard = heard(samples);
+        let heard = heard.start / bank.hop()..heard.end.div_ceil(bank.hop());
         let bands: Vec<BandEvidence> = bank
             .split(samples)
             .into_iter()
-            .map(|band| {
+            .map(|mut band| {
+                // Digital silence before the sound says nothing of the level that it began at.
+                let usual = quantile(&band.energies[heard.clone()], 0.5);
+                band.energies[..heard.start].fill(usual);
                 let quantization = quantization * band.width_hz;
-                BandEvidence::of(band, bank.hop_s(), narrow(quantization))
+                BandEvidence::of(band, bank.hop_s(), narrow(quantization), &heard)
             })
             .collect();
         for band in &bands {
@@ -171,7 +179,7 @@ const SLOW_S: f64 = 10e-3;
 const LEAKAGE: f32 = 1e-3;
 
 impl BandEvidence {
-    fn of(band: Band, hop_s: f64, quantization: f32) -> Self {
+    fn of(band: Band, hop_s: f64, quantization: f32, heard: &Range<usize>) -> Self {
         let window = |shortest_s: f64, values: f64| {
             crate::units::samples_in(shortest_s.max(values / (2.0 * band.width_hz)), 1.0 / hop_s)
                 .max(2)
@@ -181,7 +189,7 @@ impl BandEvidence {
             window(BEFORE_S, VALUES_BEFORE),
         );
         let greatest = band.energies.iter().copied().fold(0.0, f32::max);
-        let floor = (FLOOR_SHARE * quantile(&band.energies, FLOOR_QUANTILE))
+        let floor = (FLOOR_SHARE * quantile(&band.energies[heard.clone()], FLOOR_QUANTILE))
             .max(FLOOR_RANGE * greatest)
             .max(quantization);
         let own = if floor > 0.0 {
@@ -196,7 +204,7 @@ impl BandEvidence {
         } else {
             vec![0.0; band.energies.len()]
         };
-        let scale = 1.0 / quantile(&own, USUAL_QUANTILE).max(1.0);
+        let scale = 1.0 / quantile(&own[heard.clone()], USUAL_QUANTILE).max(1.0);
         Self {
             band,
             own,
@@ -260,18 +268,14 @@ impl LogRatio {
     }
 }
 
-/// Most values that a quantile is taken from: its share is then exact to a hundredth.
-const QUANTILE_VALUES: usize = 8192;
-
-/// The value below which about this share of the values lies, from evenly spaced ones; 0 of none.
+/// The value below which this share of the values lies; 0 of none.
 fn quantile(values: &[f32], share: f64) -> f32 {
-    let step = values.len().div_ceil(QUANTILE_VALUES).max(1);
-    let mut some: Vec<f32> = values.iter().copied().step_by(step).collect();
-    if some.is_empty() {
+    let mut values = values.to_vec();
+    if values.is_empty() {
         return 0.0;
     }
-    let index = crate::units::whole(share * real(some.len() - 1));
-    *some.select_nth_unstable_by(index, f32::total_cmp).1
+    let index = crate::units::whole(share * real(values.len() - 1));
+    *values.select_nth_unstable_by(index, f32::total_cmp).1
 }
 
 #[cfg(test)]

@@ -1,10 +1,11 @@
 //! The sound of a drop and the priors of its impacts, before any is matched.
 
-use super::{BEFORE_S, LEAD_S, LONGEST_S, Place, Prior};
+use super::{BEFORE_S, LEAD_S, LONGEST_S, PRIOR_REACH, Place, Prior};
 use crate::impact::Impact;
 use crate::signal::interpolate::shifted;
 use crate::signal::template::aligned::Cut;
 use crate::signal::whiten::Whitened;
+use crate::statistics::upper_median;
 use crate::units::{real, samples_in, whole};
 
 /// Fewest impacts timed together. Derived: fewer have no mean to differ from.
@@ -70,7 +71,7 @@ impl Started {
             .iter()
             .map(|prior| shifted(&sound, prior.position - real(before), before + head));
         let heads: Vec<Vec<f64>> = heads.collect();
-        let loudest = loudest(&heads, &flights, head)?;
+        let loudest = loudest(&heads, &flights, head, rate)?;
         let jitter = jitter(&heads[loudest], rate);
         for (i, prior) in priors.iter_mut().enumerate() {
             prior.std = jitter.max(prior.std).min(farthest(&flights, i));
@@ -124,16 +125,25 @@ fn farthest(flights: &[f64], i: usize) -> f64 {
     FLIGHT_SHARE * near.copied().fold(f64::INFINITY, f64::min)
 }
 
-/// The sound of most energy among those that nothing follows too soon.
-fn loudest(heads: &[Vec<f64>], flights: &[f64], length: usize) -> Option<usize> {
+/// The sound of most energy among those that nothing follows too soon and that the detector saw begin where it saw most begin: no
+/// other is found by one that it saw farther from there than a search reaches, such as at the noise that a codec puts before it.
+fn loudest(heads: &[Vec<f64>], flights: &[f64], length: usize, rate: f64) -> Option<usize> {
     let alone = |i: &usize| flights.get(*i).is_none_or(|&f| f > real(length));
+    let tops: Vec<f64> = heads.iter().map(|h| real(top(h))).collect();
+    let usual = upper_median((0..heads.len()).filter(alone).map(|i| tops[i]))?;
+    let near = |&i: &usize| (tops[i] - usual).abs() <= PRIOR_REACH * JITTER_S.0 * rate;
     let energies: Vec<f64> = heads
         .iter()
         .map(|h| h.iter().map(|x| x * x).sum())
         .collect();
-    (0..heads.len())
-        .filter(alone)
-        .max_by(|&a, &b| energies[a].total_cmp(&energies[b]))
+    let as_usual = (0..heads.len()).filter(alone).filter(near);
+    as_usual.max_by(|&a, &b| energies[a].total_cmp(&energies[b]))
+}
+
+/// The loudest sample of a sound.
+fn top(sound: &[f64]) -> usize {
+    let louder = |&a: &usize, &b: &usize| sound[a].abs().total_cmp(&sound[b].abs());
+    (0..sound.len()).max_by(louder).unwrap_or(0)
 }
 
 /// Samples after the onset that three impacts at least sound alone.
