@@ -88,7 +88,8 @@ def synth(scene: str | os.PathLike[str] = "pingpong", *, seed: int = 1) -> Synth
 
     `scene` is the name of a preset (see `presets`), or the path of a scene as TOML, whose name ends in `.toml`.
 
-    Raises `ArgumentError` for a name that is not known, a seed that is no whole number of 64 bits, or a scene out of range, `OSError` if a file cannot be read.
+    Raises `ArgumentError` for a name that is not known, a seed that is no whole number of 64 bits, or a scene out of range,
+    `OSError` if a file cannot be read.
 
     >>> import bounce_audio
     >>> made = bounce_audio.synth("steel", seed=7)

@@ -69,8 +69,10 @@ impl Evidence {
             .into_iter()
             .map(|mut band| {
                 // Digital silence before the sound says nothing of the level that it began at.
-                let usual = quantile(&band.energies[heard.clone()], 0.5);
-                band.energies[..heard.start].fill(usual);
+                if heard.start > 0 {
+                    let usual = quantile(&band.energies[heard.clone()], 0.5);
+                    band.energies[..heard.start].fill(usual);
+                }
                 let quantization = quantization * band.width_hz;
                 BandEvidence::of(band, bank.hop_s(), narrow(quantization), &heard)
             })
