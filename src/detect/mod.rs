@@ -19,7 +19,7 @@ use std::ops::Range;
 use crate::Error;
 use crate::event::Event;
 use crate::signal::filterbank::Filterbank;
-use crate::signal::sound::Sound;
+use crate::signal::sound::{Sound, loudest};
 use crate::units::{real, samples_in};
 
 /// Time grid of the energy, in seconds; a bank rounds it to a power of two of samples. Convention: a few times shorter than
@@ -129,14 +129,6 @@ impl Detector {
             profile: evidence.profile(p.index),
         }));
     }
-}
-
-/// The first of the loudest samples; 0 of none.
-fn loudest(samples: &[f32]) -> usize {
-    let sizes = samples.iter().map(|x| x.abs()).enumerate().rev();
-    sizes
-        .max_by(|a, b| a.1.total_cmp(&b.1))
-        .map_or(0, |(i, _)| i)
 }
 
 /// Strongest events of a channel that its clarity sums.

@@ -66,6 +66,15 @@ pub fn heard(samples: &[f32]) -> Range<usize> {
     first..samples.iter().rposition(sounds).map_or(first, |k| k + 1)
 }
 
+/// The first of the loudest samples; 0 of none.
+#[must_use]
+pub fn loudest(samples: &[f32]) -> usize {
+    let sizes = samples.iter().map(|x| x.abs()).enumerate().rev();
+    sizes
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map_or(0, |(i, _)| i)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

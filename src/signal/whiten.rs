@@ -1,7 +1,7 @@
 //! A whitening filter, by linear prediction of the noise of this recording.
 
 use super::interpolate::correlated;
-use super::sound::{Sound, heard};
+use super::sound::{Sound, heard, loudest};
 use crate::linalg::{Cholesky, dot};
 use crate::units::{real, samples_in, whole};
 
@@ -133,7 +133,7 @@ fn quiet_frames<'a>(sound: &Sound<'a>, span_s: (f64, f64)) -> (Vec<&'a [f32]>, f
     let frame = samples_in(FRAME_S, rate).max(2 * ORDER);
     let step = whole(FRAME_STEP * real(frame)).max(1);
     let heard = heard(sound.samples);
-    let ends = [span_s.0, span_s.1].map(|time_s| loudest(sound, time_s));
+    let ends = [span_s.0, span_s.1].map(|time_s| loudest_near(sound, time_s));
     let around = samples_in(AROUND_S, rate) / step;
     // Whole frames that begin whole steps before the first anchor and reach as far behind the second.
     let before = around.min((ends[0].saturating_sub(heard.start)) / step);
@@ -158,11 +158,9 @@ fn quiet_frames<'a>(sound: &Sound<'a>, span_s: (f64, f64)) -> (Vec<&'a [f32]>, f
 }
 
 /// The loudest sample near a time.
-fn loudest(sound: &Sound<'_>, time_s: f64) -> usize {
-    let from = sound.sample_at(time_s - ANCHOR_S);
+fn loudest_near(sound: &Sound<'_>, time_s: f64) -> usize {
     let near = sound.between(time_s - ANCHOR_S, time_s + ANCHOR_S);
-    let top = (0..near.len()).max_by(|&a, &b| near[a].abs().total_cmp(&near[b].abs()));
-    from + top.unwrap_or(0)
+    sound.sample_at(time_s - ANCHOR_S) + loudest(near)
 }
 
 /// Adds `Σ_n x[n − i]·x[n − j]` over the samples that have their whole past in the frame.
