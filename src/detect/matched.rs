@@ -54,7 +54,7 @@ pub fn events(
     let sound = sound.between(start, end)?;
     let apart = samples_in(APART_S, rate).max(1);
     let onset = real(start + before) + template.onset(rate);
-    let mut found: Vec<Event> = Residue::new(&sound, &pattern, head, alone)?
+    let mut found: Vec<Event> = Residue::new(sound, &pattern, head, alone)?
         .matches(CERTAIN, WEAKEST, apart)
         .into_iter()
         .map(|(position, z)| Event {

@@ -1,7 +1,7 @@
 //! The match of a stretch of sound with a pattern, kept right while the pattern is taken out of the sound.
 
 use crate::linalg::dot;
-use crate::signal::correlate::correlate;
+use crate::signal::correlate::Correlator;
 use crate::signal::interpolate::shifted;
 use crate::units::{narrow, real, whole};
 
@@ -25,24 +25,28 @@ pub(super) struct Matches {
 const STEPS: usize = 16;
 
 impl Matches {
-    /// The first `count` matches of a sound, which is silent after its end, with the first samples of a pattern.
-    pub(super) fn of(sound: &[f64], pattern: &[f64], part: usize, count: usize) -> Option<Self> {
+    /// The first `count` matches of a sound, which has `part` more samples at least, with the first samples of a pattern.
+    pub(super) fn of(
+        sound: &[f64],
+        pattern: &[f64],
+        part: usize,
+        count: usize,
+        correlator: &mut Correlator,
+    ) -> Option<Self> {
         let first = &pattern[..part];
         let length = dot(first, first).sqrt();
         let scaled = |products: Vec<f64>| products.into_iter().map(|p| p / length);
-        let mut sound = sound.to_vec();
-        sound.resize(count + part, 0.0);
         let mut own = vec![0.0; part - 1];
         own.extend(pattern);
         own.resize(own.len() + part, 0.0);
-        let own: Vec<f64> = scaled(correlate(&own, first)?).collect();
+        let own: Vec<f64> = scaled(correlator.correlate(&own, first)?).collect();
         let phase = |step: usize| {
             let later = (real(step) - 1.0) / real(STEPS) - 0.5;
             let moved = shifted(&own, -1.0 - later, pattern.len() + part + 1);
             moved.into_iter().map(narrow).collect()
         };
         Some(Self {
-            values: scaled(correlate(&sound, first)?)
+            values: scaled(correlator.correlate(sound.get(..count + part)?, first)?)
                 .map(narrow)
                 .take(count)
                 .collect(),

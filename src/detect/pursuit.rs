@@ -1,6 +1,7 @@
 //! Matching pursuit: match after match of a pattern, each taken out whole.
 
 use super::matches::Matches;
+use crate::signal::correlate::Correlator;
 use crate::signal::interpolate::vertex;
 use crate::units::{narrow, real};
 
@@ -26,12 +27,21 @@ const MOST_BY_HEAD: f64 = 3.0;
 const BLOCK: usize = 128;
 
 impl Residue {
-    /// Of a pattern whose head is so many samples long, and that sounds alone for so many.
-    pub(super) fn new(sound: &[f64], pattern: &[f64], head: usize, alone: usize) -> Option<Self> {
+    /// Of a sound, which is silent after its end, and a pattern whose head is so many samples long, and that sounds alone for
+    /// so many.
+    pub(super) fn new(
+        mut sound: Vec<f64>,
+        pattern: &[f64],
+        head: usize,
+        alone: usize,
+    ) -> Option<Self> {
         let count = sound.len().checked_sub(head)?;
+        sound.resize(count + alone, 0.0);
+        let mut correlator = Correlator::default();
+        let mut matches = |part| Matches::of(&sound, pattern, part, count, &mut correlator);
         let mut residue = Self {
-            head: Matches::of(sound, pattern, head, count)?,
-            whole: Matches::of(sound, pattern, alone, count)?,
+            head: matches(head)?,
+            whole: matches(alone)?,
             free: vec![0.0; count],
             best: vec![0.0; count.div_ceil(BLOCK)],
             reach: head,

@@ -2,16 +2,17 @@
 
 use rustfft::num_complex::Complex;
 
-use super::fourier::Fourier;
+use super::fourier::{Fourier, Workspace};
 
 /// Transforms are this many times as long as the shorter sequence, or a little longer: most of each is then of use, and
 /// it fits the cache.
 const TRANSFORM_LENGTHS: usize = 6;
 
-/// Correlates sequences by Fourier transforms, which it keeps.
+/// Correlates sequences by Fourier transforms, which it keeps, with the memory that they work in.
 #[derive(Debug, Default)]
 pub(crate) struct Correlator {
     transforms: Vec<Fourier>,
+    work: Workspace,
 }
 
 /// [`Correlator::correlate`] for once.
@@ -27,29 +28,29 @@ impl Correlator {
         let length = (TRANSFORM_LENGTHS * b.len())
             .min(a.len())
             .next_power_of_two();
-        let fourier = self.transform(length);
+        let known = self.transforms.iter().position(|t| t.len() == length);
+        let known = known.unwrap_or_else(|| {
+            self.transforms.push(Fourier::of(length));
+            self.transforms.len() - 1
+        });
+        let fourier = &self.transforms[known];
         let spectrum: Vec<_> = fourier.spectrum(b).iter().map(Complex::conj).collect();
         let mut out = Vec::with_capacity(count + 2 * length);
         // Of each stretch the last values wrap around.
         let step = length - b.len() + 1;
         let stretch = |start: usize| &a[start.min(a.len())..(start + length).min(a.len())];
         for start in (0..count).step_by(2 * step) {
-            let both = fourier.filtered(stretch(start), stretch(start + step), &spectrum);
+            let both = fourier.filtered(
+                stretch(start),
+                stretch(start + step),
+                &spectrum,
+                &mut self.work,
+            );
             out.extend(both[..step].iter().map(|z| z.re));
             out.extend(both[..step].iter().map(|z| z.im));
         }
         out.truncate(count);
         Some(out)
-    }
-
-    /// The transforms of a length, made where they are not kept yet.
-    fn transform(&mut self, length: usize) -> &Fourier {
-        let known = self.transforms.iter().position(|t| t.len() == length);
-        let k = known.unwrap_or_else(|| {
-            self.transforms.push(Fourier::of(length));
-            self.transforms.len() - 1
-        });
-        &self.transforms[k]
     }
 }
 

@@ -6,6 +6,13 @@ use rustfft::{Fft, FftDirection, Length};
 
 use crate::units::real;
 
+/// Memory that transforms work in, kept from one to the next.
+#[derive(Debug, Default)]
+pub(crate) struct Workspace {
+    lines: Vec<Complex<f64>>,
+    scratch: Vec<Complex<f64>>,
+}
+
 /// Transforms of one length, a power of two, without the vectors of one machine or another.
 pub(crate) struct Fourier {
     forward: Radix4<f64>,
@@ -35,7 +42,8 @@ impl Fourier {
 
     /// All lines of the spectrum of some samples and silence after them.
     pub(crate) fn spectrum(&self, samples: &[f64]) -> Vec<Complex<f64>> {
-        let mut lines = pair(samples, &[], self.len());
+        let mut lines = Vec::new();
+        pair(&mut lines, samples, &[], self.len());
         self.forward.process(&mut lines);
         lines
     }
@@ -43,30 +51,39 @@ impl Fourier {
     /// Two sequences, silence after each, with every line of their spectra times its gain: a convolution around with what the
     /// gains are the spectrum of. That must be of real samples, so that the one stays the real part and the other the imaginary
     /// part.
-    pub(crate) fn filtered<G>(&self, a: &[f64], b: &[f64], gains: &[G]) -> Vec<Complex<f64>>
+    pub(crate) fn filtered<'w, G>(
+        &self,
+        a: &[f64],
+        b: &[f64],
+        gains: &[G],
+        work: &'w mut Workspace,
+    ) -> &'w [Complex<f64>]
     where
         G: Copy,
         Complex<f64>: std::ops::Mul<G, Output = Complex<f64>>,
     {
-        let mut both = pair(a, b, self.len());
-        self.forward.process(&mut both);
+        let Workspace { lines, scratch } = work;
+        pair(lines, a, b, self.len());
+        let needed = [&self.forward, &self.inverse].map(|t| t.get_inplace_scratch_len());
+        scratch.resize(needed[0].max(needed[1]), Complex::default());
+        self.forward.process_with_scratch(lines, scratch);
         let scale = 1.0 / real(self.len());
-        for (line, &gain) in both.iter_mut().zip(gains) {
+        for (line, &gain) in lines.iter_mut().zip(gains) {
             *line = (*line * gain).scale(scale);
         }
-        self.inverse.process(&mut both);
-        both
+        self.inverse.process_with_scratch(lines, scratch);
+        lines
     }
 }
 
 /// One sequence as the real part and one as the imaginary part, silence after each.
-fn pair(a: &[f64], b: &[f64], length: usize) -> Vec<Complex<f64>> {
-    let mut both = vec![Complex::default(); length];
+fn pair(both: &mut Vec<Complex<f64>>, a: &[f64], b: &[f64], length: usize) {
+    both.clear();
+    both.resize(length, Complex::default());
     for (z, &x) in both.iter_mut().zip(a) {
         z.re = x;
     }
     for (z, &x) in both.iter_mut().zip(b) {
         z.im = x;
     }
-    both
 }

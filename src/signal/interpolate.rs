@@ -47,7 +47,10 @@ pub(crate) fn padded(samples: &[f64], first: isize, length: usize) -> Vec<f64> {
 const BLOCK: usize = 16;
 
 /// `Σ_k weights[k]·samples[i + k]` for every i at which all weights lie within the samples.
-pub(crate) fn correlated<const TAPS: usize>(samples: &[f64], weights: &[f64; TAPS]) -> Vec<f64> {
+pub(crate) fn correlated<T: Copy + Into<f64>, const TAPS: usize>(
+    samples: &[T],
+    weights: &[f64; TAPS],
+) -> Vec<f64> {
     let count = (samples.len() + 1).saturating_sub(TAPS);
     let mut out = Vec::with_capacity(count);
     let blocks = count / BLOCK;
@@ -56,7 +59,7 @@ pub(crate) fn correlated<const TAPS: usize>(samples: &[f64], weights: &[f64; TAP
         let mut sums = [0.0; BLOCK];
         for (k, &weight) in weights.iter().enumerate() {
             for (sum, &x) in sums.iter_mut().zip(&samples[k..k + BLOCK]) {
-                *sum += weight * x;
+                *sum += weight * x.into();
             }
         }
         out.extend_from_slice(&sums);
@@ -64,7 +67,7 @@ pub(crate) fn correlated<const TAPS: usize>(samples: &[f64], weights: &[f64; TAP
     for window in samples[blocks * BLOCK..].windows(TAPS) {
         let mut sum = 0.0;
         for (&x, &weight) in window.iter().zip(weights) {
-            sum += weight * x;
+            sum += weight * x.into();
         }
         out.push(sum);
     }

@@ -66,18 +66,13 @@ impl Whitener {
     #[must_use]
     pub fn apply(&self, samples: &[f32], start: usize, end: usize) -> Option<Vec<f64>> {
         let past = start.checked_sub(ORDER)?;
-        let needed: Vec<f64> = samples
-            .get(past..end)?
-            .iter()
-            .copied()
-            .map(f64::from)
-            .collect();
+        let needed = samples.get(past..end)?;
         // From the oldest sample to the newest, which is not predicted.
         let mut weights = [self.scale; ORDER + 1];
         for (weight, a) in weights.iter_mut().zip(self.predictor.iter().rev()) {
             *weight = -self.scale * a;
         }
-        Some(correlated(&needed, &weights))
+        Some(correlated(needed, &weights))
     }
 }
 

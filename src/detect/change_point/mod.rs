@@ -64,17 +64,18 @@ impl Evidence {
         let quantization = quantization_density(samples, bank);
         let heard = heard(samples);
         let heard = heard.start / bank.hop()..heard.end.div_ceil(bank.hop());
+        let mut copy = Vec::new();
         let bands: Vec<BandEvidence> = bank
             .split(samples)
             .into_iter()
             .map(|mut band| {
                 // Digital silence before the sound says nothing of the level that it began at.
                 if heard.start > 0 {
-                    let usual = quantile(&band.energies[heard.clone()], 0.5);
+                    let usual = quantile(&band.energies[heard.clone()], 0.5, &mut copy);
                     band.energies[..heard.start].fill(usual);
                 }
-                let quantization = quantization * band.width_hz;
-                BandEvidence::of(band, bank.hop_s(), narrow(quantization), &heard)
+                let quantization = narrow(quantization * band.width_hz);
+                BandEvidence::of(band, bank.hop_s(), quantization, &heard, &mut copy)
             })
             .collect();
         for band in &bands {
@@ -181,7 +182,13 @@ const SLOW_S: f64 = 10e-3;
 const LEAKAGE: f32 = 1e-3;
 
 impl BandEvidence {
-    fn of(band: Band, hop_s: f64, quantization: f32, heard: &Range<usize>) -> Self {
+    fn of(
+        band: Band,
+        hop_s: f64,
+        quantization: f32,
+        heard: &Range<usize>,
+        copy: &mut Vec<f32>,
+    ) -> Self {
         let window = |shortest_s: f64, values: f64| {
             crate::units::samples_in(shortest_s.max(values / (2.0 * band.width_hz)), 1.0 / hop_s)
                 .max(2)
@@ -191,7 +198,8 @@ impl BandEvidence {
             window(BEFORE_S, VALUES_BEFORE),
         );
         let greatest = band.energies.iter().copied().fold(0.0, f32::max);
-        let floor = (FLOOR_SHARE * quantile(&band.energies[heard.clone()], FLOOR_QUANTILE))
+        let low = quantile(&band.energies[heard.clone()], FLOOR_QUANTILE, copy);
+        let floor = (FLOOR_SHARE * low)
             .max(FLOOR_RANGE * greatest)
             .max(quantization);
         let own = if floor > 0.0 {
@@ -206,7 +214,8 @@ impl BandEvidence {
         } else {
             vec![0.0; band.energies.len()]
         };
-        let scale = 1.0 / quantile(&own[heard.clone()], USUAL_QUANTILE).max(1.0);
+        let usual = quantile(&own[heard.clone()], USUAL_QUANTILE, copy);
+        let scale = 1.0 / usual.max(1.0);
         Self {
             band,
             own,
@@ -270,14 +279,15 @@ impl LogRatio {
     }
 }
 
-/// The value below which this share of the values lies; 0 of none.
-fn quantile(values: &[f32], share: f64) -> f32 {
-    let mut values = values.to_vec();
+/// The value below which this share of the values lies; 0 of none. It is sought in a copy of them.
+fn quantile(values: &[f32], share: f64, copy: &mut Vec<f32>) -> f32 {
     if values.is_empty() {
         return 0.0;
     }
+    copy.clear();
+    copy.extend_from_slice(values);
     let index = crate::units::whole(share * real(values.len() - 1));
-    *values.select_nth_unstable_by(index, f32::total_cmp).1
+    *copy.select_nth_unstable_by(index, f32::total_cmp).1
 }
 
 #[cfg(test)]

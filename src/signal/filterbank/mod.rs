@@ -107,7 +107,11 @@ impl Filterbank {
         let half = low.len() / 2;
         // Silence before and after, and enough of it for whole blocks.
         let length = half.next_multiple_of(BLOCK);
-        let (even, odd) = (&mut scratch.centre, &mut scratch.around);
+        let Scratch {
+            centre: even,
+            around: odd,
+            squares,
+        } = scratch;
         clear(even, length);
         clear(odd, length + 2 * TAP_PAIRS);
         let (pairs, _) = low.as_chunks::<2>();
@@ -115,7 +119,7 @@ impl Filterbank {
             (*even, *odd) = (pair[0], pair[1]);
         }
         low.resize(length, 0.0);
-        let mut squares = vec![0.0; length];
+        clear(squares, length);
         let blocks = low.as_chunks_mut::<BLOCK>().0.iter_mut();
         let centres = even.as_chunks::<BLOCK>().0;
         let squares_of = squares.as_chunks_mut::<BLOCK>().0;
@@ -133,8 +137,8 @@ impl Filterbank {
         }
         low.truncate(half);
         squares.truncate(half);
-        average(&mut squares, per_hop);
-        squares
+        average(squares, per_hop);
+        squares.clone()
     }
 
     /// Splits at a quarter of `rate / dilation` without decimation: `low` becomes the low half, the squares of the high
@@ -202,6 +206,7 @@ fn halves(
 struct Scratch {
     centre: Vec<f32>,
     around: Vec<f32>,
+    squares: Vec<f32>,
 }
 
 fn clear(values: &mut Vec<f32>, length: usize) {

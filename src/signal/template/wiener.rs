@@ -9,7 +9,7 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex;
 
 use super::CLEAR;
-use crate::signal::fourier::Fourier;
+use crate::signal::fourier::{Fourier, Workspace};
 use crate::signal::interpolate::padded;
 use crate::units::{real, whole};
 
@@ -78,10 +78,13 @@ impl Wiener {
             let first = start.cast_signed() - reach.cast_signed();
             padded(&heard[c], first, size)
         };
+        let mut work = Workspace::default();
         for pair in stretches.chunks(2) {
             let sounds = pair.iter().map(around).collect::<Vec<_>>();
             let other = sounds.get(1).map_or(&[][..], Vec::as_slice);
-            let both = self.fourier.filtered(&sounds[0], other, &self.gains);
+            let both = self
+                .fourier
+                .filtered(&sounds[0], other, &self.gains, &mut work);
             let parts: [fn(&Complex<f64>) -> f64; 2] = [|z| z.re, |z| z.im];
             for (&(c, start), part) in pair.iter().zip(parts) {
                 let end = (start + step).min(length);
