@@ -50,7 +50,7 @@ pub struct Sketch {
 pub fn sketch(sound: &Whitened<'_>, impacts: &[Impact]) -> Option<Sketch> {
     let (timed, template) = joint::sketch(sound, &heard(impacts))?;
     Some(Sketch {
-        impacts: with_inferred(impacts, timed),
+        impacts: in_order(with_inferred(impacts, timed), impacts),
         template,
     })
 }
@@ -73,8 +73,8 @@ fn with_inferred(impacts: &[Impact], timed: Vec<Impact>) -> Vec<Impact> {
 /// Times the heard impacts of one drop in its whitened sound: `impacts` are in ascending order, each with how far off its
 /// time may be. The standard errors are without what all impacts of the drop share.
 ///
-/// Where a method fails on an impact (its window is cut by the end of the recording, or nothing rises in it) the coarse time
-/// stays, with its error.
+/// Where a method fails on an impact (its window is cut by the end of the recording, nothing rises in it, or it would pass
+/// another) the coarse time stays, with its error.
 #[must_use]
 pub fn refine(sound: &Whitened<'_>, impacts: &[Impact], timing: Timing) -> Vec<Impact> {
     let heard = heard(impacts);
@@ -97,7 +97,25 @@ pub fn refine(sound: &Whitened<'_>, impacts: &[Impact], timing: Timing) -> Vec<I
             timed.collect()
         }
     };
-    with_inferred(impacts, timed)
+    in_order(with_inferred(impacts, timed), impacts)
+}
+
+/// Impacts with the coarse time of each that passed another: of two the one that is known less.
+fn in_order(mut timed: Vec<Impact>, coarse: &[Impact]) -> Vec<Impact> {
+    let passed = |timed: &[Impact]| timed.windows(2).position(|w| w[1].time_s <= w[0].time_s);
+    while let Some(first) = passed(&timed) {
+        let (a, b) = (first, first + 1);
+        let less_known = if timed[a].std_s > timed[b].std_s {
+            [a, b]
+        } else {
+            [b, a]
+        };
+        // One that has its coarse time has no other; of two the coarse times are in order.
+        let moved = less_known.into_iter().find(|&i| timed[i] != coarse[i]);
+        let Some(moved) = moved else { break };
+        timed[moved] = coarse[moved];
+    }
+    timed
 }
 
 /// The time of one impact by its own rise.
@@ -112,4 +130,24 @@ fn by_fraction(sound: &Whitened<'_>, coarse: Impact) -> Option<Impact> {
         std_s: rise.std / rate,
         ..coarse
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_impact_that_passes_another_keeps_its_coarse_time() {
+        let heard = |times: &[(f64, f64)]| -> Vec<Impact> {
+            let each = times.iter().map(|&(t, std)| Impact::heard(t, std));
+            each.collect()
+        };
+        let coarse = heard(&[(1.0, 1e-3), (1.1, 1e-3), (1.2, 1e-3), (1.3, 1e-3)]);
+        // The third of them passed the second, and the last the third; the third is known least.
+        let timed = heard(&[(1.001, 1e-6), (1.101, 1e-6), (1.0995, 5e-5), (1.099, 1e-5)]);
+        let ordered = in_order(timed.clone(), &coarse);
+        assert_eq!(ordered, [timed[0], timed[1], coarse[2], coarse[3]]);
+        let kept = heard(&[(1.001, 1e-6), (1.101, 1e-6), (1.2, 1e-5), (1.301, 1e-6)]);
+        assert_eq!(in_order(kept.clone(), &coarse), kept);
+    }
 }
