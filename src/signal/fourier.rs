@@ -64,7 +64,7 @@ impl Fourier {
     {
         let Workspace { lines, scratch } = work;
         pair(lines, a, b, self.len());
-        let needed = [&self.forward, &self.inverse].map(|t| t.get_inplace_scratch_len());
+        let needed = [&self.forward, &self.inverse].map(Fft::get_inplace_scratch_len);
         scratch.resize(needed[0].max(needed[1]), Complex::default());
         self.forward.process_with_scratch(lines, scratch);
         let scale = 1.0 / real(self.len());
