@@ -65,10 +65,15 @@ impl<'a> Joint<'a> {
 
     /// Refines times and template until they rest, without jumps.
     pub(super) fn settle(&mut self) {
+        self.settle_while(|_| true);
+    }
+
+    /// The same as long as something holds after a round.
+    pub(super) fn settle_while(&mut self, holds: impl Fn(&Self) -> bool) {
         self.held = Damping::of(self.places.len());
         let mut heads = self.heads();
         for _ in 0..LIMIT {
-            if self.round(&mut heads) {
+            if self.round(&mut heads) || !holds(self) {
                 break;
             }
         }

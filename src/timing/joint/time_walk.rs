@@ -121,8 +121,9 @@ fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, 
     let more = [FEWEST_LINEAR, FEWEST_SQUARE];
     let components = 1 + more.iter().filter(|&&n| count >= n).count();
     let mut joint = Joint::of(started, aligned.clone(), components);
-    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it.
-    joint.settle();
+    // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it. And no longer than
+    // the walk is hinted at: rings that overlap look like one at first, and wander for long.
+    joint.settle_while(|joint| walk(joint, HINT).is_some());
     let walk = walk(&joint, SIGNIFICANT)?;
     Some((joint, walk))
 }
