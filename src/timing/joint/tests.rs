@@ -1,5 +1,7 @@
 //! Made impacts, timed together.
 
+use std::cell::Cell;
+
 use super::*;
 use crate::random::SplitMix64;
 use crate::signal::sound::Sound;
@@ -263,6 +265,30 @@ fn impacts_at_rest_stay_where_they_are() {
         let before = joint.now();
         joint.settle();
         assert!(joint.since(&before).rests());
+    });
+}
+
+#[test]
+fn settling_ends_once_what_it_goes_on_for_no_longer_holds() {
+    at_rest(&click(5e-3), &onsets(30, 0.25, 0.89), |mut joint| {
+        let places = joint.places.clone();
+        let disturb = |joint: &mut Joint<'_>| {
+            joint.places.clone_from(&places);
+            for place in joint.places.iter_mut().step_by(2) {
+                place.position += 0.5;
+            }
+        };
+        let rounds = Cell::new(0);
+        let count = |goes_on: bool| {
+            rounds.set(rounds.get() + 1);
+            goes_on
+        };
+        disturb(&mut joint);
+        joint.settle_while(|_| count(true));
+        assert!(rounds.replace(0) > 1);
+        disturb(&mut joint);
+        joint.settle_while(|_| count(false));
+        assert_eq!(rounds.get(), 1);
     });
 }
 
