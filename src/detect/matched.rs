@@ -44,7 +44,7 @@ pub fn events(
 ) -> Option<Vec<Event>> {
     let rate = sound.sample_rate_hz();
     let before = samples_in(BEFORE_S, rate).min(template.before);
-    let pattern = template.denoised().split_off(template.before - before);
+    let pattern = template.audible().split_off(template.before - before);
     let head = head_length(&pattern, before, rate, shortest_s);
     let alone = (before + samples_in(shortest_s, rate)).clamp(head, pattern.len());
     let inverse_bandwidth_s = 1.0 / bandwidth_per_s(&pattern[..head], rate);

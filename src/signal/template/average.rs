@@ -18,14 +18,19 @@ pub(crate) fn sums(of: &[Vec<f64>]) -> Vec<f64> {
     sums
 }
 
+/// The weights of sounds in their mean: the information of each on it.
+pub(crate) fn weights(samples: &[Sample]) -> Vec<Vec<f64>> {
+    samples.iter().map(Sample::information).collect()
+}
+
 /// Variance of the weighted mean of all sounds at each sample by white noise of variance 1 in each, `Σ w²/a² / (Σ w)²`.
 /// Differences between impacts add to it, but as waves as long as their own.
-pub(crate) fn mean_variances(samples: &[Sample]) -> Vec<f64> {
-    let weights = sums(&samples.iter().map(Sample::information).collect::<Vec<_>>());
-    let mut variances = vec![0.0; weights.len()];
-    for sample in samples {
+pub(crate) fn mean_variances(samples: &[Sample], weights: &[Vec<f64>]) -> Vec<f64> {
+    let all = sums(weights);
+    let mut variances = vec![0.0; all.len()];
+    for (sample, weights) in samples.iter().zip(weights) {
         let scale = sample.amplitude.powi(-2);
-        for ((v, w), all) in variances.iter_mut().zip(sample.information()).zip(&weights) {
+        for ((v, w), all) in variances.iter_mut().zip(weights).zip(&all) {
             *v += scale * (w / all).powi(2);
         }
     }
@@ -53,12 +58,11 @@ pub(super) fn weighted_mean<'a>(
 }
 
 /// The means of every other sound, from the first on and from the second: what they have in common is no noise.
-pub(super) fn half_means(samples: &[Sample]) -> [Vec<f64>; 2] {
-    let weights: Vec<Vec<f64>> = samples.iter().map(Sample::information).collect();
+pub(super) fn half_means(samples: &[Sample], weights: &[Vec<f64>]) -> [Vec<f64>; 2] {
     let length = weights.first().map_or(0, Vec::len);
     [0, 1].map(|first| {
         let mut mean = vec![0.0; length];
-        let every_other = samples.iter().zip(&weights).skip(first).step_by(2);
+        let every_other = samples.iter().zip(weights).skip(first).step_by(2);
         weighted_mean(every_other, &mut mean);
         mean
     })

@@ -8,7 +8,7 @@ use super::constant_fraction;
 use super::interpolate::{KERNEL, slope};
 use super::smooth::smoothed;
 use crate::units::real;
-use average::{half_means, mean_variances, sums, weighted_fit, weighted_mean};
+use average::{half_means, mean_variances, sums, weighted_fit, weighted_mean, weights};
 use wiener::Wiener;
 
 /// Share of the template's energy that its head holds: the rest adds little information on the time.
@@ -81,12 +81,12 @@ impl Template {
         &self.components[0]
     }
 
-    /// The mean sound without what is noise in it.
+    /// The mean sound as far as it stands out of the noise in time; in frequency [`Wiener`] has seen to that. In speech, where
+    /// an impact is soon drowned, a twelfth of the impacts is not found without.
     ///
     /// # Formula
-    /// Wiener's filter: each sample times `1 − n/s²`, or 0, for the power s² of the samples around it and the variance n of
-    /// the mean there.
-    pub(crate) fn denoised(&self) -> Vec<f64> {
+    /// Each sample times `1 − n/s²`, or 0, for the power s² of the samples around it and the variance n of the mean there.
+    pub(crate) fn audible(&self) -> Vec<f64> {
         let squares: Vec<f64> = self.heard[0].iter().map(|s| s * s).collect();
         let power = smoothed(&squares, self.before);
         let noise = smoothed(&self.noise, self.before);
@@ -156,7 +156,7 @@ impl Template {
         self.heard
             .resize(self.components.len(), vec![0.0; self.len()]);
         let length = impacts.first().map_or(0, |s| s.sound.len());
-        let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::information).collect();
+        let weights = weights(impacts);
         if self.components.len() == 1 {
             weighted_mean(impacts.iter().zip(&weights), &mut self.heard[0][..length]);
         } else {
@@ -177,7 +177,7 @@ impl Template {
         smoothing: usize,
     ) {
         let length = impacts.first().map_or(0, |s| s.sound.len());
-        let weights: Vec<Vec<f64>> = impacts.iter().map(Sample::information).collect();
+        let weights = weights(impacts);
         let (misfit, noise) = self.left_over(impacts, &weights);
         self.misfit[..length].copy_from_slice(&smoothed(&misfit, smoothing));
         self.noise[..length].copy_from_slice(&noise);
@@ -189,13 +189,11 @@ impl Template {
 
     /// Learns what is noise in it, from the impacts that it was learnt from.
     pub(crate) fn learn_noise(&mut self, impacts: &[Sample]) {
-        let variances = mean_variances(impacts);
+        let weights = weights(impacts);
+        let variances = mean_variances(impacts, &weights);
         let head = &self.heard[0][..variances.len()];
-        self.wiener = Some(Wiener::of(
-            head,
-            &half_means(impacts),
-            variances.iter().sum(),
-        ));
+        let halves = half_means(impacts, &weights);
+        self.wiener = Some(Wiener::of(head, &halves, variances.iter().sum()));
         self.unfiltered = self.len();
     }
 

@@ -77,12 +77,17 @@ impl Curve {
 
     /// Greatest distance of its slope and bend from those of another, in standard errors.
     fn moved_from(&self, other: &Self) -> f64 {
-        let moved = (1..3).map(|k| {
+        greatest_in_std((1..3).map(|k| {
             let moved = self.coefficients[k] - other.coefficients[k];
-            in_std(moved, self.covariance[k][k].sqrt())
-        });
-        moved.fold(0.0, f64::max)
+            (moved, self.covariance[k][k].sqrt())
+        }))
     }
+}
+
+/// The greatest of some moves, each with its standard error, in those.
+pub(super) fn greatest_in_std(moves: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let in_std = moves.map(|(moved, std)| in_std(moved, std));
+    in_std.fold(0.0, f64::max)
 }
 
 /// The size of a move in standard errors; 0 of what does not move and has none.

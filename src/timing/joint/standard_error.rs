@@ -3,7 +3,7 @@
 use super::alternate::Joint;
 use super::normal_equations::NormalEquations;
 use crate::signal::interpolate::slope_gain;
-use crate::signal::template::average::{mean_variances, sums};
+use crate::signal::template::average::{mean_variances, sums, weights};
 use crate::signal::template::{MOST_SHARE, Sample};
 use crate::units::real;
 
@@ -30,7 +30,7 @@ pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
     let samples = joint.heads();
     let error_pairs = error_pairs(joint, &samples);
     let excess = noise_excess(joint, &samples);
-    let variances = mean_variances(&samples);
+    let variances = mean_variances(&samples, &weights(&samples));
     let slope_noise = slope_gain() * joint.template.slope_noise();
     let std = |i: usize| {
         let (independent, _) = error_pairs[i]?;
@@ -52,7 +52,7 @@ pub(super) fn overdispersions(joint: &Joint<'_>, heads: &[Sample]) -> Vec<f64> {
 
 /// Standard errors of all impacts, by independent samples and by blocks.
 fn error_pairs(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
-    let weights = sums(&samples.iter().map(Sample::information).collect::<Vec<_>>());
+    let weights = sums(&weights(samples));
     let template = &joint.template;
     let each = samples.iter().enumerate();
     each.map(|(i, s)| errors(s, template.shape(i), template.slopes(i), &weights))

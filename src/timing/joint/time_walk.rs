@@ -2,7 +2,7 @@
 
 use super::align::Aligned;
 use super::alternate::Joint;
-use super::curve::{Curve, in_std};
+use super::curve::{Curve, greatest_in_std};
 use super::start::Started;
 use super::walk_by_edges::walk_by_edges;
 
@@ -45,9 +45,10 @@ impl TimeWalk {
 
     /// Greatest distance of its terms from those of another, in its own standard errors.
     pub(super) fn moved_from(&self, other: &Self) -> f64 {
-        let moved =
-            (0..2).map(|k| in_std(self.terms[k] - other.terms[k], self.covariance[k][k].sqrt()));
-        moved.fold(0.0, f64::max)
+        greatest_in_std((0..2).map(|k| {
+            let moved = self.terms[k] - other.terms[k];
+            (moved, self.covariance[k][k].sqrt())
+        }))
     }
 
     /// From the fastest to the slowest impact: the shift and its standard error.
