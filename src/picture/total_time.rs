@@ -2,7 +2,7 @@
 
 use crate::Error;
 use crate::physics::{BounceSeries, Restitution};
-use crate::plot::{Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side};
+use crate::plot::{Axis, Colour, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side};
 use crate::units::{real, whole};
 
 /// e of the curves of the paper.
@@ -75,8 +75,7 @@ pub fn figure(
             0.0,
             ROOM * ROOM * longest,
         ),
-    )
-    .legend_at(Corner::LowerRight);
+    );
     panel.layers = curves;
     let panel = panel.with(Layer::Labels(names)).with(Layer::Dots(dot));
     Ok(Figure::new(title, vec![panel]))

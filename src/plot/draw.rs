@@ -2,7 +2,7 @@
 
 use std::fmt::Display;
 
-use plotters::chart::{ChartBuilder, ChartContext, SeriesLabelPosition};
+use plotters::chart::{ChartBuilder, ChartContext};
 use plotters::coord::Shift;
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::drawing::DrawingArea;
@@ -13,7 +13,7 @@ use plotters::style::{Color, FontFamily, FontStyle, ShapeStyle, TextStyle, WHITE
 
 use super::heading::{fitting, width};
 use super::style::{self, FONT};
-use super::{Axis, Colour, Corner, Curve, Figure, Layer, Panel, Stroke, clip};
+use super::{Axis, Colour, Curve, Figure, Layer, Panel, Stroke, clip};
 use crate::Error;
 
 pub(super) type Area<DB> = DrawingArea<DB, Shift>;
@@ -31,7 +31,7 @@ pub(super) fn figure<DB: DrawingBackend>(
     area: &Area<DB>,
     scale: u32,
 ) -> Result<(), Error> {
-    // A bitmap and the legend in a corner draw and measure by `plotters`.
+    // A bitmap draws and measures by `plotters`.
     #[cfg(not(target_arch = "wasm32"))]
     style::register()?;
     area.fill(&WHITE).map_err(|e| problem(&e))?;
@@ -120,7 +120,8 @@ impl Pen {
         panel.x.check()?;
         panel.y.check()?;
         let beside = self.beside(panel, area)?;
-        let above = panel.heading.is_some() || panel.legend() == Corner::Above;
+        let named = panel.layers.iter().any(|layer| layer.name().is_some());
+        let above = panel.heading.is_some() || named;
         let height = if above { self.px(HEADING_PX) } else { 0 };
         let (head, area) = area.split_vertically(height);
         if above {
@@ -148,7 +149,7 @@ impl Pen {
                 Layer::Span { from, to } => self.span(&mut chart, *from, *to)?,
             }
         }
-        self.legend(&mut chart, panel)
+        Ok(())
     }
 
     /// Width of the texts of the vertical axis: alike for all that have numbers, so that panels below each other line up.
@@ -202,7 +203,7 @@ impl Pen {
         panel: &Panel,
     ) -> Result<(), Error> {
         let style = self.stroke(curve);
-        let (dash, gap, sample) = (self.px(12), self.px(8), self.px(SAMPLE_PX));
+        let (dash, gap) = (self.px(12), self.px(8));
         let parts = clip::inside(&curve.points, &panel.x, &panel.y).into_iter();
         let drawn = if curve.stroke == Stroke::Dashed {
             let dashed = |part| DashedPathElement::new(part, dash, gap, style);
@@ -210,18 +211,7 @@ impl Pen {
         } else {
             chart.draw_series(parts.map(|part| PathElement::new(part, style)))
         };
-        let drawn = drawn.map_err(|e| problem(&e))?;
-        let Some(name) = &curve.name else {
-            return Ok(());
-        };
-        let labelled = drawn.label(name.as_str());
-        if curve.stroke == Stroke::Dashed {
-            labelled.legend(move |(x, y)| {
-                DashedPathElement::new([(x, y), (x + sample, y)], dash, gap, style)
-            });
-        } else {
-            labelled.legend(move |(x, y)| PathElement::new([(x, y), (x + sample, y)], style));
-        }
+        drawn.map_err(|e| problem(&e))?;
         Ok(())
     }
 
@@ -252,32 +242,6 @@ impl Pen {
                 .map_err(|e| problem(&e))?;
         }
         Ok(())
-    }
-
-    fn legend<'a, DB: DrawingBackend + 'a>(
-        self,
-        chart: &mut Chart<'a, DB>,
-        panel: &Panel,
-    ) -> Result<(), Error> {
-        if !panel.layers.iter().any(|layer| layer.name().is_some()) {
-            return Ok(());
-        }
-        let position = match panel.legend() {
-            Corner::UpperLeft => SeriesLabelPosition::UpperLeft,
-            Corner::UpperRight => SeriesLabelPosition::UpperRight,
-            Corner::LowerLeft => SeriesLabelPosition::LowerLeft,
-            Corner::LowerRight => SeriesLabelPosition::LowerRight,
-            Corner::Above => return Ok(()),
-        };
-        chart
-            .configure_series_labels()
-            .position(position)
-            .margin(self.px(16))
-            .legend_area_size(self.px(SAMPLE_PX + 12))
-            .label_font(self.text(style::TICK_PX, Colour::BLACK))
-            .background_style(WHITE.mix(0.9))
-            .draw()
-            .map_err(|e| problem(&e))
     }
 }
 

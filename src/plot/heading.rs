@@ -6,7 +6,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, TextStyle};
 
 use super::draw::{Area, Pen, SAMPLE_PX, problem};
-use super::{Colour, Corner, Layer, Panel, Shape, Stroke, style};
+use super::{Colour, Layer, Panel, Shape, Stroke, style};
 use crate::Error;
 
 /// Room between an entry of the legend and the next.
@@ -29,7 +29,7 @@ impl Pen {
         let mut end = right;
         let entries = panel.layers.iter().rev();
         let entries = entries.filter_map(|layer| Some((layer, layer.name()?)));
-        for (layer, name) in entries.filter(|_| panel.legend() == Corner::Above) {
+        for (layer, name) in entries {
             let start = end - width(area, name, &style(Colour::BLACK))?;
             let text = (start, middle);
             area.draw_text(name, &style(Colour::BLACK), text)

@@ -4,7 +4,7 @@ use plotters::element::{Circle, Cross, PathElement, Polygon};
 use plotters::prelude::DrawingBackend;
 use plotters::style::{Color, ShapeStyle, WHITE};
 
-use super::draw::{Chart, Pen, SAMPLE_PX, problem};
+use super::draw::{Chart, Pen, problem};
 use super::{Axis, Band, Dots, Panel, Shape, style};
 use crate::Error;
 
@@ -53,12 +53,7 @@ impl Pen {
         } else {
             chart.draw_series(points.iter().map(|&at| Circle::new(at, size, fill)))
         };
-        let drawn = drawn.map_err(|e| problem(&e))?;
-        if let Some(name) = &dots.name {
-            let middle = self.px(SAMPLE_PX) / 2;
-            let sample = move |(x, y)| Circle::new((x + middle, y), size, fill);
-            drawn.label(name.as_str()).legend(sample);
-        }
+        drawn.map_err(|e| problem(&e))?;
         Ok(())
     }
 

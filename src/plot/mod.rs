@@ -84,21 +84,18 @@ pub struct Panel {
     pub y: Axis,
     /// From the back to the front.
     pub layers: Vec<Layer>,
-    /// Where the names of the layers stand.
-    pub legend: Corner,
-    /// What the panel shows, above it.
+    /// What the panel shows, above it; the names of its layers stand beside that, where they cover nothing.
     pub heading: Option<String>,
 }
 
 impl Panel {
-    /// An empty panel, its legend at the upper right.
+    /// An empty panel.
     #[must_use]
     pub const fn new(x: Axis, y: Axis) -> Self {
         Self {
             x,
             y,
             layers: Vec::new(),
-            legend: Corner::UpperRight,
             heading: None,
         }
     }
@@ -110,44 +107,10 @@ impl Panel {
         self
     }
 
-    /// The panel with a heading, and its legend beside that.
+    /// The panel with a heading.
     #[must_use]
     pub fn headed(mut self, heading: impl Into<String>) -> Self {
         self.heading = Some(heading.into());
-        self.legend = Corner::Above;
         self
     }
-
-    /// The panel with its legend elsewhere.
-    #[must_use]
-    pub const fn legend_at(mut self, corner: Corner) -> Self {
-        self.legend = corner;
-        self
-    }
-}
-
-impl Panel {
-    /// Where the legend is drawn: in a browser always above, since `plotters` measures those in a corner itself.
-    const fn legend(&self) -> Corner {
-        if cfg!(target_arch = "wasm32") {
-            Corner::Above
-        } else {
-            self.legend
-        }
-    }
-}
-
-/// Where a legend stands: in a corner of its panel or above it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Corner {
-    /// Upper left.
-    UpperLeft,
-    /// Upper right.
-    UpperRight,
-    /// Lower left.
-    LowerLeft,
-    /// Lower right.
-    LowerRight,
-    /// In one line above the panel, where it covers nothing.
-    Above,
 }

@@ -1,8 +1,7 @@
 //! Pictures: what a figure holds is in the SVG, and the PNG has ink.
 
 use bounce_audio::plot::{
-    Axis, Colour, Corner, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side, Stroke, to_png,
-    to_svg,
+    Axis, Colour, Curve, Dots, Figure, Layer, Note, Panel, Shape, Side, Stroke, to_png, to_svg,
 };
 
 fn figure() -> Figure {
@@ -30,8 +29,7 @@ fn figure() -> Figure {
         .with(Layer::Span {
             from: (1.0, 2.0),
             to: (9.0, 2.0),
-        })
-        .legend_at(Corner::LowerRight);
+        });
     Figure::new("A figure", vec![panel])
 }
 

@@ -5,7 +5,7 @@ use bounce_audio::physics::{
     Bounce, DropSetup, FlightLaw, Impact, LinearContact, Oscillator, Rebound, ReleaseRule,
     Restitution, RestitutionLaw,
 };
-use bounce_audio::plot::{Axis, Colour, Corner, Dots, Figure, Layer, Panel, Shape, Side, Stroke};
+use bounce_audio::plot::{Axis, Colour, Dots, Figure, Layer, Panel, Shape, Side, Stroke};
 
 use super::{
     BOUNCES, CONTACT_BY_EQ20_S, CONTACT_BY_VIDEO_S, GRAVITY_M_PER_S2, HEIGHT_M, RESTITUTION,
@@ -71,7 +71,6 @@ pub(super) fn first_bounce() -> Result<Figure, Error> {
         Axis::linear("time from first touch (ms)", -1.0, 5.0),
         Axis::linear("height x (mm)", -4.5, 3.0),
     )
-    .legend_at(Corner::LowerRight)
     .with(curve(vec![(-1.0, 0.0), (5.0, 0.0)], Colour::GREY));
     for (contact_s, colour, name, level, side) in [
         (

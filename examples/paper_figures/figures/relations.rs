@@ -3,7 +3,7 @@
 use bounce_audio::Error;
 use bounce_audio::physics::{Ball, Oscillator, Restitution};
 use bounce_audio::picture::{self, total_time::Point};
-use bounce_audio::plot::{Axis, Colour, Corner, Curve, Figure, Layer, Panel, Side, Stroke};
+use bounce_audio::plot::{Axis, Colour, Curve, Figure, Layer, Panel, Side, Stroke};
 
 use super::{
     BOUNCES, CONTACT_BY_EQ20_S, CONTACT_BY_VIDEO_S, GRAVITY_M_PER_S2, HEIGHT_M, RESTITUTION,
@@ -149,8 +149,7 @@ pub(super) fn damping() -> Result<Figure, Error> {
     let mut panel = Panel::new(
         Axis::linear("coefficient of restitution e", 0.40, 0.96),
         Axis::logarithmic("damping per mass c/m (s⁻¹)", 8.0, 3000.0),
-    )
-    .legend_at(Corner::LowerLeft);
+    );
     for (contact_ms, colour) in CONTACT_TIMES_MS.into_iter().zip(Colour::FAMILY) {
         let points = against_restitution(1e-3 * contact_ms, Oscillator::damping_per_mass_per_s)?;
         let at = points.get(20).copied().unwrap_or_default();
