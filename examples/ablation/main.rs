@@ -1,9 +1,11 @@
-//! What each constant of detection, sequence, timing and analysis does to the suite: halved, doubled and switched off.
+//! What each constant of detection, sequence, timing and analysis does to both suites: halved, doubled and switched off.
 //!
 //! ```text
 //! cargo run --release --example ablation -- list [PACKAGE]   the constants, of another checkout too
-//! cargo run --release --example ablation -- run              measure all that rest on judgement or on figures; 25 minutes
+//! cargo run --release --example ablation -- run              measure all that rest on judgement or on figures; an hour
+//! cargo run --release --example ablation -- run --new        measure those of them that have not been measured
 //! cargo run --release --example ablation -- run PART         measure those whose file and name contain PART, of any class
+//! cargo run --release --example ablation -- check            whether the changed package compiles
 //! cargo run --release --example ablation -- table            write docs/constants.md anew from what was measured last
 //! ```
 //!
@@ -48,10 +50,11 @@ fn main() {
         ["score", suite] => print!("{}", score::suite(Path::new(suite)).unwrap().to_text()),
         ["list"] => list(&here()),
         ["list", package] => list(&Place::of(Path::new(package))),
+        ["check"] => check(&here()),
         ["run"] => measure(&here(), ""),
         ["run", part] => measure(&here(), part),
         ["table"] => here().write_table(),
-        _ => eprintln!("ablation list | run [PART] | table"),
+        _ => eprintln!("ablation list | check | run [--new | PART] | table"),
     }
 }
 
@@ -120,20 +123,31 @@ fn list(place: &Place) {
     );
 }
 
+/// A change of the source that the copy cannot follow shows here, and not when somebody measures.
+fn check(place: &Place) {
+    cargo("check", &made(place), &place.work);
+}
+
+/// The copy, made anew.
+fn made(place: &Place) -> PathBuf {
+    let copy = place.work.join("copy");
+    copy::make(&place.root, &copy, &place.sources, &place.constants).unwrap();
+    copy
+}
+
 /// Builds the copy, makes the suite and measures what is asked for.
 fn measure(place: &Place, part: &str) {
-    let copy = place.work.join("copy");
     let (entries, _) = place.entries();
     let asked = entries.iter().filter(|e| match part {
         "" => e.is_open(),
+        "--new" => e.is_open() && e.row.effects.iter().all(String::is_empty),
         part => format!("{}::{}", e.row.file, e.row.name).contains(part),
     });
     let changes: Vec<String> = asked
         .flat_map(Entry::changes)
         .filter(|c| !c.is_empty())
         .collect();
-    copy::make(&place.root, &copy, &place.sources, &place.constants).unwrap();
-    let scorer = build(&copy, &place.work);
+    let scorer = build(&made(place), &place.work);
     let suite = place.work.join("suite");
     if !suite.is_dir() {
         score::make_suite(&suite, SEEDS).unwrap();
@@ -147,12 +161,20 @@ fn measure(place: &Place, part: &str) {
 
 /// Builds this program in the copy, and keeps it apart from the one that runs.
 fn build(copy: &Path, work: &Path) -> PathBuf {
+    let target = cargo("build", copy, work);
+    let scorer = work.join("scorer");
+    fs::copy(target.join("release/examples/ablation"), &scorer).unwrap();
+    scorer
+}
+
+/// Lets cargo build or check this program in the copy; gives the folder where it does.
+fn cargo(command: &str, copy: &Path, work: &Path) -> PathBuf {
     // Of its own: cargo would take the copy for the package that it is a copy of.
     let target = work.join("target");
     let cargo = Command::new(env!("CARGO"))
         .current_dir(copy)
         .args([
-            "build",
+            command,
             "--release",
             "--offline",
             "--no-default-features",
@@ -166,7 +188,5 @@ fn build(copy: &Path, work: &Path) -> PathBuf {
         .status()
         .unwrap();
     assert!(cargo.success(), "the copy does not compile");
-    let scorer = work.join("scorer");
-    fs::copy(target.join("release/examples/ablation"), &scorer).unwrap();
-    scorer
+    target
 }

@@ -75,7 +75,7 @@ fn samples(bytes: &[u8]) -> (f64, Vec<Vec<f32>>) {
 /// Makes the recordings of all scenes, with their truth, in a folder.
 pub(crate) fn make_suite(folder: &Path, seeds: u64) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
-    for name in presets::names() {
+    for name in presets::names().chain(presets::found_names()) {
         for seed in 1..=seeds {
             let made = render(&presets::preset(name)?, seed)?;
             let path = folder.join(format!("{name}-{seed}.samples"));

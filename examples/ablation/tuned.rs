@@ -4,7 +4,7 @@
 /// The variable of the environment that names the number to change and how: `file.rs::NAME=half`, `=double` or a value.
 const VARIABLE: &str = "BOUNCE_AUDIO_ABLATION";
 
-/// A number, or an array of them.
+/// A number, or a pair or an array of them.
 pub(crate) trait Tuned: Copy {
     /// The number, changed by a rule.
     fn changed(self, change: &Change) -> Self;
@@ -74,6 +74,12 @@ macro_rules! whole {
     )*};
 }
 whole!(usize, u32, u64, i32);
+
+impl<A: Tuned, B: Tuned> Tuned for (A, B) {
+    fn changed(self, change: &Change) -> Self {
+        (self.0.changed(change), self.1.changed(change))
+    }
+}
 
 impl<T: Tuned, const N: usize> Tuned for [T; N] {
     fn changed(self, change: &Change) -> Self {

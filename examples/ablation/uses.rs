@@ -27,7 +27,9 @@ pub(crate) fn uses(constant: &Constant, source: &Source, sources: &[Source]) -> 
     let declared = constant.item.start..constant.expression.start;
     used.filter(|at| !(own && declared.contains(at)))
         .filter(|&at| match path_before(&source.code, at) {
-            Some(before) => modules.contains(&before) || (own && before == "Self"),
+            Some("Self") => own,
+            Some("super") => is_parent,
+            Some(before) => modules.contains(&before),
             None => own || imported,
         })
         .collect()

@@ -88,14 +88,14 @@ impl FlightLaw {
         Self {
             state: PRIOR.map(|known| known.value),
             covariance,
-            scatter: Scatter::AT_LARGE,
+            scatter: Scatter::at_large(),
         }
     }
 
     /// The same law with the scatter of balls at large: what follows may lie far from what was learnt last.
     #[must_use]
     pub const fn at_large(mut self) -> Self {
-        self.scatter = Scatter::AT_LARGE;
+        self.scatter = Scatter::at_large();
         self
     }
 

@@ -52,7 +52,9 @@ pub(super) struct Lesson {
 }
 
 impl Scatter {
-    pub(super) const AT_LARGE: Self = Self { shares: SHARES };
+    pub(super) const fn at_large() -> Self {
+        Self { shares: SHARES }
+    }
 
     /// Density of each class at a deviation.
     fn parts(&self, deviation: f64, variances: &Variances) -> [f64; CLASSES] {
