@@ -5,7 +5,7 @@ pub(crate) mod average;
 mod wiener;
 
 use super::constant_fraction;
-use super::interpolate::{KERNEL, slope};
+use super::interpolate::{KERNEL, shifted, slope};
 use super::smooth::smoothed;
 use crate::units::real;
 use average::{half_means, mean_variances, sums, weighted_fit, weighted_mean, weights};
@@ -15,6 +15,8 @@ use wiener::Wiener;
 const HEAD_SHARE: f64 = 0.95;
 /// A template counts where its square, or its power around a frequency, exceeds its variance by this factor.
 const CLEAR: f64 = 1.5;
+/// Places for each sample that the onset is sought at: among the samples alone it hangs by a tenth of one on where they lie.
+const FINER: usize = 8;
 
 /// The common sound of a drop's impacts: sample k of each component is `k − before` samples after the onset.
 #[derive(Debug, Clone, Default)]
@@ -81,8 +83,8 @@ impl Template {
         &self.components[0]
     }
 
-    /// The mean sound as far as it stands out of the noise in time; in frequency [`Wiener`] has seen to that. In speech, where
-    /// an impact is soon drowned, a twelfth of the impacts is not found without.
+    /// The mean sound as far as it stands out of the noise in time; in frequency [`Wiener`] has seen to that. Without, 22 of
+    /// 12,314 impacts of 301 recordings are not found, most of them in one with speech: 11 recordings lose some and 7 gain.
     ///
     /// # Formula
     /// Each sample times `1 − n/s²`, or 0, for the power s² of the samples around it and the variance n of the mean there.
@@ -95,11 +97,17 @@ impl Template {
         self.mean().iter().zip(held).map(|(s, h)| s * h).collect()
     }
 
-    /// Onset of its sound, in samples after the nominal one: the constant fraction of its rise.
+    /// Onset of its sound, in samples after the nominal one: the constant fraction of its rise, of places between the samples
+    /// too, since where it lies among these is chance.
     pub(crate) fn onset(&self, rate: f64) -> f64 {
         // As it is heard: a filter reaches before it.
-        let rise = constant_fraction::time(&self.heard[0], self.before, rate);
-        rise.map_or(0.0, |r| r.position - real(self.before))
+        let heard = &self.heard[0];
+        let shifts = (0..FINER).map(|k| shifted(heard, real(k) / real(FINER), heard.len()));
+        let shifts: Vec<Vec<f64>> = shifts.collect();
+        let finer = (0..heard.len()).flat_map(|i| shifts.iter().map(move |s| s[i]));
+        let finer: Vec<f64> = finer.collect();
+        let rise = constant_fraction::time(&finer, FINER * self.before, real(FINER) * rate);
+        rise.map_or(0.0, |r| r.position / real(FINER) - real(self.before))
     }
 
     /// The sound of impact `i` at amplitude 1.
