@@ -90,13 +90,17 @@ impl<'a> Joint<'a> {
         since.rests()
     }
 
-    /// Refines times once by the heads, and learns the whole template there.
-    pub(super) fn sketch(&mut self) {
+    /// Refines times and template by the heads first and then by the whole template, with jumps once those rest.
+    pub(super) fn settle_whole(&mut self) {
         self.round(&mut self.heads());
         self.learn_whole();
+        self.settle();
+        if self.jump(&mut Rivals::of(self.places.len())) {
+            self.settle();
+        }
     }
 
-    /// [Settles](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard
+    /// The same as [settling](Self::settle) with jumps to better matches first. Gives the ambiguity of each: the standard
     /// error by rival places that match nearly as well.
     pub(super) fn search_and_settle(&mut self) -> Vec<f64> {
         let mut rivals = Rivals::of(self.places.len());

@@ -123,8 +123,8 @@ pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Vec<Im
     Some(timed(whitened.sound(), coarse, &started, &corrected))
 }
 
-/// The impacts roughly, or as they are aligned where they are unlike, and their template: by it more of them are found, and what
-/// they rest at would find no more.
+/// The same with few jumps and without time walk, or as they are aligned where they are unlike, and their template: by it more
+/// of them are found.
 pub(super) fn sketch(
     whitened: &Whitened<'_>,
     coarse: &[Impact],
@@ -134,7 +134,7 @@ pub(super) fn sketch(
     let mut joint = Joint::of(&started, aligned.clone(), 1);
     if joint.unlike() <= UNLIKE {
         joint = Joint::of(&started, aligned, 1);
-        joint.sketch();
+        joint.settle_whole();
     }
     let corrected = Corrected::without_walk(joint);
     let timed = timed(whitened.sound(), coarse, &started, &corrected);
