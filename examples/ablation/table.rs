@@ -172,7 +172,10 @@ fn summary(entries: &[Entry<'_>], base: Option<&Figures>) -> String {
             .map(|(c, v)| format!("{} {}", c.name, c.shown(*v)))
             .collect();
         let count = base.documents.len();
-        text += &format!("\nAs it is, {count} recordings: {}.\n", words.join(", "));
+        text += &format!(
+            "\nWithout a change, {count} recordings: {}.\n",
+            words.join(", ")
+        );
     }
     text
 }

@@ -22,12 +22,21 @@ const SMOOTHING_S: f64 = 0.1e-3;
 const EARLIEST_S: f64 = 0.8e-3;
 const LATEST_S: f64 = 1.5e-3;
 
+/// How many samples are looked at, from the first on, for a sound that begins near the sample `coarse`.
+pub(crate) fn length(coarse: usize, sample_rate_hz: f64) -> usize {
+    coarse + samples_in(LATEST_S, sample_rate_hz) + smoothing(sample_rate_hz)
+}
+
+fn smoothing(sample_rate_hz: f64) -> usize {
+    samples_in(SMOOTHING_S, sample_rate_hz).max(1)
+}
+
 /// The constant-fraction time of a sound that begins near the sample `coarse`; none if its peak is not clear of the noise.
 #[must_use]
 pub(crate) fn time(samples: &[f64], coarse: usize, sample_rate_hz: f64) -> Option<Crossing> {
-    let envelope = envelope(samples, samples_in(SMOOTHING_S, sample_rate_hz).max(1));
     let from = coarse.saturating_sub(samples_in(EARLIEST_S, sample_rate_hz));
-    let to = (coarse + samples_in(LATEST_S, sample_rate_hz)).min(envelope.len());
+    let to = (coarse + samples_in(LATEST_S, sample_rate_hz)).min(samples.len());
+    let envelope = envelope(samples, to, smoothing(sample_rate_hz));
     let peak = (from..to).max_by(|&a, &b| envelope[a].total_cmp(&envelope[b]))?;
     // The impact rises from the level of the ring of the one before.
     let before = &envelope[from.saturating_sub(to - from)..from];
@@ -54,13 +63,13 @@ pub(crate) fn time(samples: &[f64], coarse: usize, sample_rate_hz: f64) -> Optio
     })
 }
 
-/// Root mean square over `2·reach + 1` samples with triangular weights.
-fn envelope(samples: &[f64], reach: usize) -> Vec<f64> {
+/// Root mean square over `2·reach + 1` samples with triangular weights, of the first `length` samples.
+fn envelope(samples: &[f64], length: usize, reach: usize) -> Vec<f64> {
     let weights: Vec<f64> = (0..=2 * reach)
         .map(|i| real(reach + 1 - i.abs_diff(reach)))
         .collect();
     let total: f64 = weights.iter().sum();
-    (0..samples.len())
+    (0..length)
         .map(|centre| {
             let sum: f64 = weights
                 .iter()

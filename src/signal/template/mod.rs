@@ -83,8 +83,8 @@ impl Template {
         &self.components[0]
     }
 
-    /// The mean sound as far as it stands out of the noise in time; in frequency [`Wiener`] has seen to that. Without, 22 of
-    /// 12,314 impacts of 301 recordings are not found, most of them in one with speech: 11 recordings lose some and 7 gain.
+    /// The mean sound as far as it stands out of the noise in time; in frequency [`Wiener`] has seen to that. It buys little: of
+    /// 301 recordings without it 11 lose some impacts and 7 gain some, two in a thousand in all.
     ///
     /// # Formula
     /// Each sample times `1 − n/s²`, or 0, for the power s² of the samples around it and the variance n of the mean there.
@@ -102,11 +102,14 @@ impl Template {
     pub(crate) fn onset(&self, rate: f64) -> f64 {
         // As it is heard: a filter reaches before it.
         let heard = &self.heard[0];
-        let shifts = (0..FINER).map(|k| shifted(heard, real(k) / real(FINER), heard.len()));
+        let (before, rate) = (FINER * self.before, real(FINER) * rate);
+        let length = constant_fraction::length(before, rate).div_ceil(FINER);
+        let length = length.min(heard.len());
+        let shifts = (0..FINER).map(|k| shifted(heard, real(k) / real(FINER), length));
         let shifts: Vec<Vec<f64>> = shifts.collect();
-        let finer = (0..heard.len()).flat_map(|i| shifts.iter().map(move |s| s[i]));
+        let finer = (0..length).flat_map(|i| shifts.iter().map(move |s| s[i]));
         let finer: Vec<f64> = finer.collect();
-        let rise = constant_fraction::time(&finer, FINER * self.before, real(FINER) * rate);
+        let rise = constant_fraction::time(&finer, before, rate);
         rise.map_or(0.0, |r| r.position / real(FINER) - real(self.before))
     }
 

@@ -98,3 +98,21 @@ fn what_has_little_weight_teaches_no_misfit() {
     let greatest = template.misfit.iter().copied().fold(0.0, f64::max);
     assert!(greatest < 1e-3, "{greatest}");
 }
+
+#[test]
+fn the_onset_moves_as_the_sound_does_between_the_samples_too() {
+    // A wave of 8 kHz that begins within a fifth of a millisecond, at 48 kHz.
+    let sound = |begin: f64| -> Vec<f64> {
+        let level = |t: f64| t.max(0.0).powi(2) * (-t / 8.0).exp();
+        let each = (0..400).map(|i| real(i) - begin);
+        each.map(|t| level(t) * (1.05 * t).sin()).collect()
+    };
+    let off = (0..20).map(|k| {
+        let moved = 0.05 * real(k);
+        Template::new(sound(100.0 + moved), vec![0.0; 400], 100).onset(48_000.0) - moved
+    });
+    let off: Vec<f64> = off.collect();
+    let range = |by: fn(f64, f64) -> f64| off.iter().copied().reduce(by).unwrap();
+    let spread = range(f64::max) - range(f64::min);
+    assert!(spread < 0.03, "{spread} samples");
+}

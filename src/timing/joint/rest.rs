@@ -15,8 +15,8 @@ const REST: f64 = 0.02;
 /// more than this share of itself (convention).
 const HELD_REST: f64 = 0.2;
 const STD_REST: f64 = 0.3;
-/// Rounds of the inner loop at most: a bound for dull sounds that overlap. Of 1,757 rests of 149 recordings one takes 184, and one
-/// 2,787, by the last of which e moves by a hundredth of its standard error.
+/// Rounds of the inner loop at most: a bound for dull sounds that overlap. Of 1,757 rests one took 184, the next most, and one
+/// 2,787, by the last of which e moved by a hundredth of its standard error.
 const LIMIT: usize = 500;
 /// Moves are steady where their cosine with those before is at least this, and they shrink by no more than the first share;
 /// a share above the second is taken as that (convention).

@@ -28,9 +28,10 @@ const FAINTEST: f64 = 3.0;
 /// hum and rumble last longer than a block. The standard error is divided by the [`attenuation`].
 pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
     let samples = joint.heads();
-    let error_pairs = error_pairs(joint, &samples);
+    let weights = weights(&samples);
+    let error_pairs = error_pairs(joint, &samples, &sums(&weights));
     let excess = noise_excess(joint, &samples);
-    let variances = mean_variances(&samples, &weights(&samples));
+    let variances = mean_variances(&samples, &weights);
     let slope_noise = slope_gain() * joint.template.slope_noise();
     let std = |i: usize| {
         let (independent, _) = error_pairs[i]?;
@@ -45,17 +46,16 @@ pub(super) fn standard_errors(joint: &Joint<'_>) -> Vec<Option<f64>> {
 
 /// Overdispersion of each impact: variance of its match over that by independent samples, at least 1.
 pub(super) fn overdispersions(joint: &Joint<'_>, heads: &[Sample]) -> Vec<f64> {
-    let error_pairs = error_pairs(joint, heads);
+    let error_pairs = error_pairs(joint, heads, &sums(&weights(heads)));
     let overdispersion = |i: usize| overdispersion(&error_pairs, i).max(1.0);
     (0..error_pairs.len()).map(overdispersion).collect()
 }
 
-/// Standard errors of all impacts, by independent samples and by blocks.
-fn error_pairs(joint: &Joint<'_>, samples: &[Sample]) -> Vec<Option<(f64, f64)>> {
-    let weights = sums(&weights(samples));
+/// Standard errors of all impacts, by independent samples and by blocks; `weights` are those of all in the template.
+fn error_pairs(joint: &Joint<'_>, samples: &[Sample], weights: &[f64]) -> Vec<Option<(f64, f64)>> {
     let template = &joint.template;
     let each = samples.iter().enumerate();
-    each.map(|(i, s)| errors(s, template.shape(i), template.slopes(i), &weights))
+    each.map(|(i, s)| errors(s, template.shape(i), template.slopes(i), weights))
         .collect()
 }
 
