@@ -3,10 +3,13 @@
 use rustfft::num_complex::Complex;
 
 use super::fourier::{Fourier, Workspace};
+use super::interpolate::correlated;
 
 /// Transforms are this many times as long as the shorter sequence, or a little longer: most of each is then of use, and
 /// it fits the cache.
 const TRANSFORM_LENGTHS: usize = 6;
+/// So few products are summed sooner one by one than by transforms: of 50, 150, 400 and 1,000 dense drops are fastest with this.
+const FEW: usize = 400;
 
 /// Correlates sequences by Fourier transforms, which it keeps, with the memory that they work in.
 #[derive(Debug, Default)]
@@ -22,9 +25,17 @@ pub(crate) fn correlate(a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
 
 impl Correlator {
     /// `Σ_j a[k + j]·b[j]` for every k at which b lies within a, by Fourier transforms of stretches of a that overlap by b,
-    /// two in each.
+    /// two in each; where few are wanted, by their definition.
     pub(crate) fn correlate(&mut self, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
         let count = a.len().checked_sub(b.len())? + 1;
+        if count
+            <= std::env::var("FEW")
+                .ok()
+                .and_then(|v| v.parse().ok())
+                .unwrap_or(FEW)
+        {
+            return Some(correlated(a, b));
+        }
         let length = (TRANSFORM_LENGTHS * b.len())
             .min(a.len())
             .next_power_of_two();

@@ -47,31 +47,32 @@ pub(crate) fn padded(samples: &[f64], first: isize, length: usize) -> Vec<f64> {
 const BLOCK: usize = 16;
 
 /// `Σ_k weights[k]·samples[i + k]` for every i at which all weights lie within the samples.
-pub(crate) fn correlated<T: Copy + Into<f64>, const TAPS: usize>(
-    samples: &[T],
-    weights: &[f64; TAPS],
-) -> Vec<f64> {
-    let count = (samples.len() + 1).saturating_sub(TAPS);
-    let mut out = Vec::with_capacity(count);
-    let blocks = count / BLOCK;
-    for b in 0..blocks {
-        let samples = &samples[b * BLOCK..b * BLOCK + BLOCK + TAPS - 1];
-        let mut sums = [0.0; BLOCK];
-        for (k, &weight) in weights.iter().enumerate() {
-            for (sum, &x) in sums.iter_mut().zip(&samples[k..k + BLOCK]) {
-                *sum += weight * x.into();
-            }
-        }
-        out.extend_from_slice(&sums);
+pub(crate) fn correlated<T: Copy + Into<f64>>(samples: &[T], weights: &[f64]) -> Vec<f64> {
+    let count = (samples.len() + 1).saturating_sub(weights.len());
+    if count < BLOCK {
+        return (0..count)
+            .flat_map(|i| block::<T, 1>(&samples[i..], weights))
+            .collect();
     }
-    for window in samples[blocks * BLOCK..].windows(TAPS) {
-        let mut sum = 0.0;
-        for (&x, &weight) in window.iter().zip(weights) {
-            sum += weight * x.into();
-        }
-        out.push(sum);
+    let mut out = Vec::with_capacity(count);
+    for start in (0..count).step_by(BLOCK) {
+        // The last block begins where it ends with the last output.
+        let start = start.min(count - BLOCK);
+        let sums = block::<T, BLOCK>(&samples[start..], weights);
+        out.extend_from_slice(&sums[out.len() - start..]);
     }
     out
+}
+
+/// The first outputs of [`correlated`].
+fn block<T: Copy + Into<f64>, const N: usize>(samples: &[T], weights: &[f64]) -> [f64; N] {
+    let mut sums = [0.0; N];
+    for (window, &weight) in samples.windows(N).zip(weights) {
+        for (sum, &x) in sums.iter_mut().zip(window) {
+            *sum += weight * x.into();
+        }
+    }
+    sums
 }
 
 /// Derivative of a band-limited sequence at its samples, per sample; zero outside.
@@ -160,28 +161,30 @@ fn kernel(position: f64) -> (isize, [f64; 2 * KERNEL]) {
     use std::f64::consts::PI;
     let whole = position.floor();
     let fraction = position - whole;
-    let sine = (PI * fraction).sin();
+    let sine = (PI * fraction).sin() / PI;
     #[expect(
         clippy::cast_possible_truncation,
         reason = "positions lie within a window of samples"
     )]
     let first = whole as isize + 1 - KERNEL.cast_signed();
-    let weight = |i: usize| {
+    // The distances are fraction + (KERNEL − 1 − i): the sine of the whole part is its parity.
+    let mut weights: [f64; 2 * KERNEL] = std::array::from_fn(|i| {
         let x = fraction + real(KERNEL) - 1.0 - real(i);
-        if x.abs() < 1e-9 {
-            return 1.0;
-        }
-        // x = fraction + (KERNEL − 1 − i): the sine of the whole part is its parity.
-        let sign = if (KERNEL - 1).abs_diff(i).is_multiple_of(2) {
-            1.0
-        } else {
-            -1.0
-        };
         let share = 1.0 - (x / real(KERNEL)).powi(2);
-        sign * sine / (PI * x) * share * share
-    };
-    (first, std::array::from_fn(weight))
+        let sign = if i % 2 == KERNEL % 2 { -1.0 } else { 1.0 };
+        sign * sine / x * share * share
+    });
+    // At a sample itself the sinc is 0/0.
+    if fraction < AT_SAMPLE {
+        weights[KERNEL - 1] = 1.0;
+    } else if fraction > 1.0 - AT_SAMPLE {
+        weights[KERNEL] = 1.0;
+    }
+    (first, weights)
 }
+
+/// Distance from a sample, in samples, at which the sinc is 1 to the last digit.
+const AT_SAMPLE: f64 = 1e-9;
 
 fn weighted(values: &[f64], first: isize, kernel: &[f64]) -> f64 {
     let skip = usize::try_from(-first).unwrap_or(0);

@@ -35,11 +35,15 @@ impl Joint<'_> {
 
     /// Takes the sounds of all other impacts out of samples that begin at a position.
     pub(super) fn take_out_others(&self, i: usize, begin: f64, samples: &mut [f64]) {
+        let longest = self.template.len();
         for (j, other) in self.places.iter().enumerate() {
             let offset = begin - self.begin(j);
+            let near = offset < real(longest) && offset + real(samples.len() + KERNEL) > 0.0;
+            if j == i || !near {
+                continue;
+            }
             let heard = self.template.sounding_length(other.amplitude);
-            let overlaps = offset < real(heard) && offset + real(samples.len() + KERNEL) > 0.0;
-            if j != i && overlaps {
+            if offset < real(heard) {
                 // From its first sample to its last, as far as they are among these.
                 let skip = whole((-offset).floor()).saturating_sub(KERNEL);
                 let last = whole((real(heard) - offset).ceil()).min(samples.len());

@@ -39,6 +39,8 @@ pub(super) struct LeadingEdges<'a> {
     /// Where an edge begins, in samples of it, and its standard error: from there on one is slower than another.
     beginning: f64,
     beginning_std: f64,
+    /// The sound about each impact.
+    alone: Vec<Alone>,
 }
 
 /// What a step of least squares says of the edges.
@@ -75,6 +77,7 @@ impl<'a> LeadingEdges<'a> {
             length,
             beginning: low - ahead - real(onset - lead),
             beginning_std: ahead,
+            alone: vec![Alone::default(); joint.places.len()],
         })
     }
 
@@ -82,7 +85,7 @@ impl<'a> LeadingEdges<'a> {
     ///
     /// Edges move together and none by itself: a faint one has many crests of noise to rest on, and those near where it began
     /// would be found too often.
-    pub(super) fn step(&self, course: &Course) -> Option<Step> {
+    pub(super) fn step(&mut self, course: &Course) -> Option<Step> {
         let cuts = self.cuts(course);
         let mean = MeanEdge::of(&cuts, self.length, self.beginning)?;
         let started = self.joint.started;
@@ -116,27 +119,55 @@ impl<'a> LeadingEdges<'a> {
         1.0 + course.slowing * contact_stretch / self.joint.started.mean_contact()
     }
 
-    /// The edges where a course has them, the other impacts taken out, each as fast as the mean, with a margin on both sides.
-    fn cuts(&self, course: &Course) -> Vec<Cut> {
-        let started = self.joint.started;
-        let each = self.joint.places.iter().zip(&started.contact_stretches);
-        let cuts = each.enumerate().map(|(i, (place, &contact_stretch))| {
+    /// The edges where a course has them, each as fast as the mean, with a margin on both sides.
+    fn cuts(&mut self, course: &Course) -> Vec<Cut> {
+        let length = self.length + 2 * KERNEL;
+        let cuts = (0..self.joint.places.len()).map(|i| {
+            let contact_stretch = self.joint.started.contact_stretches[i];
+            let place = self.joint.places[i];
             let begin = place.position + course.walk.shift(contact_stretch) - real(self.lead);
             let slowness = self.slowness(contact_stretch, course);
-            let length = self.length + 2 * KERNEL;
-            let at =
-                |k: usize| self.beginning + slowness * (real(k) - real(KERNEL) - self.beginning);
-            let first = at(0).floor() - real(KERNEL);
-            let reach = samples_in(1.0, at(length) - first) + KERNEL;
-            let mut sound = shifted(&started.sound, begin + first, reach);
-            self.joint.take_out_others(i, begin + first, &mut sound);
-            let sound = (0..length).map(|k| interpolated(&sound, at(k) - first));
+            let beginning = self.beginning;
+            let at = |k: usize| begin + beginning + slowness * (real(k) - real(KERNEL) - beginning);
+            let alone = self.alone(i, at(0), at(length));
+            let sound = (0..length).map(|k| interpolated(&alone.sound, at(k) - alone.first));
             Cut {
                 amplitude: place.amplitude,
                 sound: sound.collect(),
             }
         });
         cuts.collect()
+    }
+
+    /// The sound about an impact, the other impacts taken out, from one place to another at least. It is cut anew only where
+    /// a course leads beyond what was cut before.
+    fn alone(&mut self, i: usize, from: f64, to: f64) -> &Alone {
+        let (from, to) = (from.floor() - real(KERNEL), to.ceil() + real(KERNEL));
+        if !self.alone[i].holds(from, to) {
+            let first = from - real(ROOM);
+            let length = samples_in(1.0, to - from) + 2 * ROOM;
+            let mut sound = shifted(&self.joint.started.sound, first, length);
+            self.joint.take_out_others(i, first, &mut sound);
+            self.alone[i] = Alone { first, sound };
+        }
+        &self.alone[i]
+    }
+}
+
+/// Samples that are cut on either side beyond those needed: courses seldom lead farther.
+const ROOM: usize = 8;
+
+/// The sound about one impact without the others, at the samples of the recording.
+#[derive(Debug, Clone, Default)]
+struct Alone {
+    /// Place of its first sample in the stretch.
+    first: f64,
+    sound: Vec<f64>,
+}
+
+impl Alone {
+    fn holds(&self, from: f64, to: f64) -> bool {
+        self.first <= from && to <= self.first + real(self.sound.len())
     }
 }
 

@@ -137,14 +137,16 @@ fn errors(sample: &Sample, shape: &[f64], slopes: &[f64], weights: &[f64]) -> Op
         .zip(&sample.noise)
         .map(|(d, n)| d * d / n)
         .sum();
-    let (mut sums, mut known) = ([0.0; BLOCKS], 0.0);
+    let (mut sums, mut known, mut block) = ([0.0; BLOCKS], 0.0, 0);
     for t in 0..slopes.len() {
         let noise = sample.noise[t];
         let share = (sample.amplitude.powi(2) / noise / weights[t]).min(MOST_SHARE);
         let left = (sample.sound[t] - sample.amplitude * shape[t]) / (1.0 - share).sqrt();
         let pull = normal.pull(sample.amplitude, shape[t], slopes[t], noise);
-        let block = crate::units::whole((known / information * real(BLOCKS)).floor());
-        sums[block.min(BLOCKS - 1)] += pull * left;
+        while block + 1 < BLOCKS && known * real(BLOCKS) >= information * real(block + 1) {
+            block += 1;
+        }
+        sums[block] += pull * left;
         known += slopes[t].powi(2) / noise;
     }
     let squares: f64 = sums.iter().map(|s| s * s).sum();

@@ -15,7 +15,7 @@ const LIMIT: usize = 200;
 
 /// The walk of the leading edges; none where there are too few. Where edges lie is fitted first, and then how slow they are too.
 pub(super) fn walk_by_edges(joint: &Joint<'_>) -> Option<TimeWalk> {
-    let edges = LeadingEdges::of(joint)?;
+    let mut edges = LeadingEdges::of(joint)?;
     let mut course = Course {
         walk: TimeWalk::default(),
         slowing: SLOWING,
