@@ -61,12 +61,12 @@ impl Joint<'_> {
         Some((place, found.ambiguity))
     }
 
-    /// One step towards the best amplitude and time of an impact, by weighted least squares, or the share `gain` of it.
+    /// One step towards the best amplitude and time of an impact, by weighted least squares.
     ///
     /// # Formula
     /// `x = a·s − a·δ·ds/dt` with weights `1/noise`, solved for a and δ; with I the information of that match, corrected
     /// for overdispersion, and the prior's, J about μ, the place τ moves by `(I·δ + J·(μ − τ))/(I + J)`.
-    pub(super) fn step(&mut self, i: usize, gain: f64) -> Step {
+    pub(super) fn step(&mut self, i: usize) -> Step {
         let head = self.template.head;
         let begin = self.begin(i) - real(KERNEL);
         let mut wide = shifted(&self.started.sound, begin, head + 2 * KERNEL);
@@ -78,7 +78,7 @@ impl Joint<'_> {
         let information = self.information(i, &normal);
         let by = (information * matched + prior * off) / (information + prior);
         let by = if by.is_finite() { by } else { 0.0 };
-        let by = gain * by.clamp(-STEP, STEP);
+        let by = by.clamp(-STEP, STEP);
         self.places[i] = Place {
             position: place.position + by,
             amplitude: amplitude.max(LEAST_AMPLITUDE * place.amplitude),
