@@ -28,12 +28,7 @@ impl Correlator {
     /// two in each; where few are wanted, by their definition.
     pub(crate) fn correlate(&mut self, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
         let count = a.len().checked_sub(b.len())? + 1;
-        if count
-            <= std::env::var("FEW")
-                .ok()
-                .and_then(|v| v.parse().ok())
-                .unwrap_or(FEW)
-        {
+        if count <= FEW {
             return Some(correlated(a, b));
         }
         let length = (TRANSFORM_LENGTHS * b.len())
@@ -75,7 +70,7 @@ mod tests {
     fn correlation_is_that_of_the_definition() {
         let mut rng = SplitMix64::new(2);
         let a: Vec<f64> = (0..999).map(|_| rng.normal()).collect();
-        for width in [1, 2, 7, 64, 500, 999] {
+        for width in [1, 2, 7, 64, 500, 700, 990, 999] {
             let b: Vec<f64> = (0..width).map(|_| rng.normal()).collect();
             let fast = correlate(&a, &b).unwrap();
             assert_eq!(fast.len(), 1_000 - width);
