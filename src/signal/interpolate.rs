@@ -58,7 +58,7 @@ pub(crate) fn correlated<T: Copy + Into<f64>>(samples: &[T], weights: &[f64]) ->
     for start in (0..count).step_by(BLOCK) {
         // The last block begins where it ends with the last output.
         let start = start.min(count - BLOCK);
-        let sums = block::<T, BLOCK>(&samples[start..], weights);
+        let sums: [f64; BLOCK] = block(&samples[start..], weights);
         out.extend_from_slice(&sums[out.len() - start..]);
     }
     out
