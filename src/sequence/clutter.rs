@@ -63,18 +63,21 @@ impl<'a> Clutter<'a> {
     /// What lies around an event, itself not counted.
     fn around(&self, event: usize) -> Around {
         *self.around[event].get_or_init(|| Around {
-            near: NEAR_S.map(|near_s| self.near(event, near_s)),
+            near: self.near(event),
             at_large: self.at_large(event),
         })
     }
 
-    fn near(&self, event: usize, near_s: f64) -> f64 {
+    fn near(&self, event: usize) -> [f64; 2] {
         let this = &self.events[event];
-        let (from_s, to_s) = (this.time_s - near_s, this.time_s + near_s);
-        let first = self.events.partition_point(|e| e.time_s < from_s);
-        let last = self.events.partition_point(|e| e.time_s <= to_s);
+        let first = (self.events).partition_point(|e| e.time_s < this.time_s - NEAR_S[0]);
+        let last = (self.events).partition_point(|e| e.time_s <= this.time_s + NEAR_S[0]);
         let others = (first..last).filter(|&i| i != event);
-        others.map(|i| loudness_kernel(&self.events[i], this)).sum()
+        let mut near = [0.0; 2];
+        for other in others.map(|i| &self.events[i]) {
+            add_where_near(&mut near, loudness_kernel(other, this), other, this);
+        }
+        near
     }
 
     /// How many seconds lie within so many of an event.
@@ -209,13 +212,18 @@ impl<'a> Rates<'a> {
         for &i in self.associated.iter().filter(|&&i| i != event) {
             let like = loudness_kernel(&events[i], this);
             own.at_large += like;
-            for (sum, near_s) in own.near.iter_mut().zip(NEAR_S) {
-                if (events[i].time_s - this.time_s).abs() <= near_s {
-                    *sum += like;
-                }
-            }
+            add_where_near(&mut own.near, like, &events[i], this);
         }
         own
+    }
+}
+
+/// Adds how like another event is to those surroundings that it lies in.
+fn add_where_near(sums: &mut [f64; 2], like: f64, other: &Event, this: &Event) {
+    for (sum, near_s) in sums.iter_mut().zip(NEAR_S) {
+        if (other.time_s - this.time_s).abs() <= near_s {
+            *sum += like;
+        }
     }
 }
 

@@ -28,7 +28,11 @@ const OTHER: f64 = 0.1;
 
 /// Density of the loudness of an event where another was found: normal.
 pub(super) fn loudness_kernel(a: &Event, b: &Event) -> f64 {
-    let off = (a.loudness - b.loudness) / KERNEL_WIDTH;
+    let off = (a.loudness - b.loudness).abs();
+    if off > KERNEL_REACH {
+        return 0.0;
+    }
+    let off = off / KERNEL_WIDTH;
     0.5 * FRAC_1_SQRT_2 * FRAC_2_SQRT_PI / KERNEL_WIDTH * (-0.5 * off * off).exp()
 }
 
