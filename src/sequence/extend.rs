@@ -30,8 +30,6 @@ const NEWEST_SHARE: f64 = 0.3;
 const WIDEST_WINDOW: f64 = 0.25;
 /// … but an accident may take this share of a flight more than other bounces do.
 const GREATEST_LOSS: f64 = 0.45;
-/// An accident is believed when this many bounces after it are none: a chain does not end sooner.
-pub(super) const CALM: usize = 2;
 
 /// Nats that it costs to say that the recorder lost a part of a flight. Derived: as likely as that the ball lost energy.
 const LOST_TIME_COST: f64 = std::f64::consts::LN_2;
@@ -63,8 +61,6 @@ pub(super) struct Hypothesis {
     pub score: f64,
     /// What the last impact heard was like.
     pub profile: Profile,
-    /// Impacts heard since the last accident.
-    pub calm: usize,
 }
 
 /// Steps of all hypotheses, each knowing the one before it: pasts are shared, not copied.
@@ -108,7 +104,7 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
             }
             let heard = beam
                 .iter()
-                .filter(|h| h.doubt.unheard == 0 && h.calm >= CALM)
+                .filter(|h| h.doubt.unheard == 0)
                 .max_by(|a, b| a.score.total_cmp(&b.score));
             if let Some(&best_heard) = heard.filter(|h| h.score > best.score + END_COST) {
                 best = best_heard;
@@ -203,7 +199,6 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         }
         let mut child = *from;
         let accident = child.law.learn(earlier, later, doubt);
-        child.calm = if accident > 0.5 { 0 } else { from.calm + 1 };
         child.flight_s = flight;
         child.profile = heard.profile;
         child.doubt = Doubt {

@@ -14,8 +14,6 @@ const INITIATORS: usize = 10;
 const LEAST_STRENGTH: f64 = 9.0;
 /// Seeds kept for each second of the recording.
 const SEEDS_PER_S: usize = 6;
-/// Ratios of neighbouring flights that may start a chain.
-const RATIOS: (f64, f64) = (0.15, 1.0);
 
 /// A seed with what it promises, in nats.
 type Scored = (f64, [usize; 3]);
@@ -100,10 +98,10 @@ fn triples_around(
         }
         for third in &initiators[place + 1..] {
             let next = third.time_s - second.time_s;
-            if next > RATIOS.1 * flight {
+            if next > flight {
                 break;
             }
-            if next < RATIOS.0 * flight || next < SHORTEST_FLIGHT_S {
+            if next < SHORTEST_FLIGHT_S {
                 continue;
             }
             let triple = [*first, second, *third];

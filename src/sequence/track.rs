@@ -1,7 +1,7 @@
 //! Following a drop from three of its impacts, forwards and backwards in time.
 
 use super::clutter::{Clutter, Rates};
-use super::extend::{CALM, Extension, Hypothesis, Way};
+use super::extend::{Extension, Hypothesis, Way};
 use super::flight::{Doubt, FlightLaw};
 use super::marks::{LOUDNESS_AT_LARGE, ln_sounds};
 use super::{Event, LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
@@ -119,7 +119,6 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
         loudness,
         profile: profiles[2],
         score: 0.0,
-        calm: CALM,
     };
     let forward = Extension::new(scene, rates, Way::Forward).from(start);
     let mut law_back = law;
