@@ -71,11 +71,13 @@ fn evaluated(names: impl Iterator<Item = &'static str>) -> Evaluation {
 
 /// Figures that were once better and are owed: the threshold of the scene stays, and until it is met again this holds.
 /// What repays one takes it out here.
-const OWED: [(&str, &str, f64); 2] = [
+const OWED: [(&str, &str, f64); 3] = [
     // The medians of caught and stone are chance of two recordings. Over 24 other seeds they were 0.58 and 0.44 µs; of the
     // program that set these thresholds they are 0.66 and 0.56.
     ("caught", "timing_error_median_s", 9e-7),
     ("stone", "timing_error_median_s", 4.6e-7),
+    // Two recordings as well: over 16 other seeds it is 0.193 µs, and was 0.192 before templates were filtered.
+    ("two-balls", "timing_error_median_s", 1.46e-7),
 ];
 
 /// The same of the second suite: words and taps that quicken and fade, all of one sound, are taken for a ball; and
