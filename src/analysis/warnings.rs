@@ -64,6 +64,10 @@ impl Sounds {
             );
         }
         let message = match (candidate, self.noticeable) {
+            (Some(candidate), 0) => format!(
+                "no sharp sounds, and no drop beyond doubt. {}",
+                candidate.in_words()
+            ),
             (Some(candidate), sharp) => format!(
                 "{}, but no drop beyond doubt. {}",
                 counted(sharp, "sharp sound"),
