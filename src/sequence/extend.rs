@@ -22,8 +22,6 @@ const SILENCE_COST: f64 = 2.0;
 const FAINT: f64 = 10.0;
 /// Impacts in a row that may be unheard.
 const LONGEST_SILENCE: usize = 2;
-/// No flight is longer than the one before, up to scatter.
-const GROWTH: f64 = 1.03;
 /// Share of the newest impact in the mean loudness.
 const NEWEST_SHARE: f64 = 0.3;
 /// An impact is sought at most this share of a flight from where it is expected, however little is known …
@@ -172,8 +170,7 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
         let (earlier, later) = self.in_order(from, flight);
         let ratio = later / earlier;
         let flights = SHORTEST_FLIGHT_S..LONGEST_FLIGHT_S;
-        let is_flight = ratio < GROWTH;
-        if !flights.contains(&flight) || !(is_flight || flight < whole_s) {
+        if !flights.contains(&flight) {
             return;
         }
         let doubt = Doubt {
@@ -181,6 +178,10 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
             ..from.doubt
         };
         let expected = from.law.expect(earlier, later, doubt);
+        let is_flight = ratio.ln() < expected.greatest();
+        if !(is_flight || flight < whole_s) {
+            return;
+        }
         // The density is of ln T; per second it is divided by T.
         let density = expected.ln_density(ratio.ln() - expected.mean) - flight.ln();
         // Loudness is not monotone, but an impact much fainter than those around it is more likely to be something else.

@@ -53,6 +53,8 @@ const WANDER: f64 = 3e-3;
 const CHANGED: f64 = 0.3;
 /// A match farther off than this many standard deviations is none.
 pub(super) const GATE: f64 = 6.0;
+/// A flight is longer than the one before by at most so many standard deviations of their times (convention).
+const LONGER: f64 = 3.0;
 
 /// What is expected of ln(T'/T).
 #[derive(Debug, Clone, Copy)]
@@ -68,6 +70,14 @@ impl Expected {
     #[must_use]
     pub(super) fn variance(&self) -> f64 {
         self.scatter.variance(&self.variances)
+    }
+
+    /// Greatest ln(T'/T): no bounce gives energy, so a flight is longer than the one before by the jitter of times alone, or by
+    /// the scatter of impacts that are only inferred.
+    #[must_use]
+    pub(super) fn greatest(&self) -> f64 {
+        let doubt = self.variances.jitter + (self.variances.spread - 1.0) * self.variance();
+        LONGER * doubt.sqrt()
     }
 
     /// ln of the density of a deviation from the mean.
@@ -190,6 +200,20 @@ mod tests {
         unheard: 0,
         jitter_s: 1e-4,
     };
+
+    #[test]
+    fn a_flight_is_longer_than_the_one_before_by_the_doubt_of_its_times_alone() {
+        let greatest = |flight_s: f64, unheard: usize| {
+            let doubt = Doubt { unheard, ..SHARP };
+            FlightLaw::prior()
+                .expect(flight_s, flight_s, doubt)
+                .greatest()
+        };
+        // 3·√(1 + 1 + 2²) of 0.1 ms, as a share of the flight.
+        assert!((greatest(1.0, 0) - 3e-4 * 6.0_f64.sqrt()).abs() < 1e-12);
+        assert!((greatest(0.02, 0) / greatest(1.0, 0) - 50.0).abs() < 1e-9);
+        assert!(greatest(1.0, 1) > 0.1);
+    }
 
     #[test]
     fn a_law_taught_by_a_ball_with_drag_knows_its_next_and_previous_flight() {
