@@ -14,6 +14,8 @@ const INITIATORS: usize = 10;
 const LEAST_STRENGTH: f64 = 9.0;
 /// Seeds kept for each second of the recording.
 const SEEDS_PER_S: usize = 6;
+/// Least ratio of neighbouring flights that may start a chain: a limit of time, as no chain was ever found below it.
+const LEAST_RATIO: f64 = 0.15;
 
 /// A seed with what it promises, in nats.
 type Scored = (f64, [usize; 3]);
@@ -101,7 +103,7 @@ fn triples_around(
             if next > flight {
                 break;
             }
-            if next < SHORTEST_FLIGHT_S {
+            if next < LEAST_RATIO * flight || next < SHORTEST_FLIGHT_S {
                 continue;
             }
             let triple = [*first, second, *third];

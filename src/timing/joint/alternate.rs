@@ -68,13 +68,12 @@ impl<'a> Joint<'a> {
         self.settle_while(|_| true);
     }
 
-    /// The same as long as something holds, which is asked for after 1, 2, 4, 8 … rounds: it may cost as much as they do.
+    /// The same as long as something holds after a round.
     pub(super) fn settle_while(&mut self, holds: impl Fn(&Self) -> bool) {
         self.held = Damping::of(self.places.len());
         let mut heads = self.heads();
-        for round in 1..=LIMIT {
-            let rests = self.round(&mut heads);
-            if rests || (round.is_power_of_two() && !holds(self)) {
+        for _ in 0..LIMIT {
+            if self.round(&mut heads) || !holds(self) {
                 break;
             }
         }
