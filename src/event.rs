@@ -28,6 +28,7 @@ const BANDS: usize = 12;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Profile {
     roots: [f32; BANDS],
+    is_known: bool,
 }
 
 impl Profile {
@@ -39,16 +40,17 @@ impl Profile {
             *root = nats.max(0.0).sqrt();
         }
         let length = roots.iter().map(|r| r * r).sum::<f32>().sqrt();
-        if length > 0.0 {
+        let is_known = length > 0.0;
+        if is_known {
             roots.iter_mut().for_each(|root| *root /= length);
         }
-        Self { roots }
+        Self { roots, is_known }
     }
 
     /// Whether anything is known of the sound.
     #[must_use]
-    pub fn is_known(&self) -> bool {
-        self.roots.iter().any(|r| *r > 0.0)
+    pub const fn is_known(&self) -> bool {
+        self.is_known
     }
 
     /// How unlike two sounds are, 0 to 1; 0 if nothing is known of one of them.
@@ -57,12 +59,15 @@ impl Profile {
         if !self.is_known() || !other.is_known() {
             return 0.0;
         }
-        let cosine: f32 = self
-            .roots
-            .iter()
-            .zip(&other.roots)
-            .map(|(a, b)| a * b)
-            .sum();
-        f64::from((1.0 - cosine).max(0.0))
+        // Four sums side by side, which a processor forms at once: a drop asks this of some hundred thousand pairs.
+        let mut cosines = [0.0_f32; 4];
+        let (these, _) = self.roots.as_chunks::<4>();
+        let (those, _) = other.roots.as_chunks::<4>();
+        for (a, b) in these.iter().zip(those) {
+            for (cosine, (a, b)) in cosines.iter_mut().zip(a.iter().zip(b)) {
+                *cosine += a * b;
+            }
+        }
+        f64::from((1.0 - cosines.iter().sum::<f32>()).max(0.0))
     }
 }

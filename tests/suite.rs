@@ -80,19 +80,19 @@ const OWED: [(&str, &str, f64); 3] = [
     ("two-balls", "timing_error_median_s", 1.46e-7),
 ];
 
-/// The same of the second suite: words and taps that quicken and fade, all of one sound, are taken for a ball; and
-/// medians of times that are a tenth to a third over what they were, as in the first suite. What drops were found hung on the
-/// sample that the detector's grid began with, and the thresholds are those of the luckiest: of `match` 7 or 14 impacts of 14 were
-/// lost by it, of `no-two-alike` 36 to 41 of 160. Now it is the same for all, neither best nor worst.
-const OWED_OF_FOUND: [(&str, &str, f64); 17] = [
+/// The same of the second suite: words and taps that quicken and fade, all of one sound, are taken for a ball, and oftener since
+/// sounds of another kind no longer speak against one: it is a ball by its times, its loudness and its likeness, and what
+/// held it down held down real balls under voices. And medians of times that are a tenth to a third over what they were, as in
+/// the first suite. What drops were found hung on the sample that the detector's grid began with, and the thresholds are those
+/// of the luckiest: of `match` 7 or 14 impacts of 14 were lost by it. Now it is the same for all, neither best nor worst.
+const OWED_OF_FOUND: [(&str, &str, f64); 16] = [
     ("all", "lost_drops", 4.0),
     ("match", "lost_drops", 2.0),
     ("match", "precision", 0.0),
     ("match", "recall", 0.0),
-    ("no-two-alike", "recall", 0.76),
     ("odd-twice", "timing_error_median_s", 1.01e-7),
     ("words-and-tennis", "precision", 0.0),
-    ("all", "false_drops", 9.0),
+    ("all", "false_drops", 14.0),
     ("drop-out", "timing_error_median_s", 5.9e-7),
     ("knocked-before", "timing_error_median_s", 2.7e-7),
     ("odd-bounce", "timing_error_median_s", 6.2e-7),
@@ -100,8 +100,8 @@ const OWED_OF_FOUND: [(&str, &str, f64); 17] = [
     ("scatter-5", "timing_error_median_s", 6e-7),
     ("scatter-8", "timing_error_median_s", 4.5e-7),
     ("splice", "timing_error_median_s", 5.9e-7),
-    ("words", "false_drops", 4.0),
-    ("words-and-tennis", "false_drops", 3.0),
+    ("words", "false_drops", 7.0),
+    ("words-and-tennis", "false_drops", 5.0),
 ];
 
 fn assert_reached(evaluation: &Evaluation, thresholds: &str, owed: &[(&str, &str, f64)]) {

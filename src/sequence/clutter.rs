@@ -3,7 +3,7 @@
 use std::cell::OnceCell;
 
 use super::Event;
-use super::marks::{KERNEL_REACH, LOUDNESS_AT_LARGE, LOUDNESS_OF_ANOTHER, loudness_kernel};
+use super::marks::{KERNEL_REACH, Kind, LOUDNESS_AT_LARGE, LOUDNESS_OF_ANOTHER};
 use crate::units::real;
 
 /// Surroundings of an event, in seconds each way, in which a scene changes little, and in which a sound still rings.
@@ -20,7 +20,7 @@ const LEAST_SPAN_S: f64 = 0.25;
 /// Of the events of the whole recording this many are compared with one, evenly spread over their strengths.
 const COMPARED: usize = 128;
 
-/// The events of a recording, by time and by loudness, and how many lie around each: found when it is first asked for.
+/// The events of a recording, by time and by loudness, and how many of its kind lie around each: found when it is first asked for.
 #[derive(Debug)]
 pub struct Clutter<'a> {
     /// In order of time.
@@ -31,7 +31,7 @@ pub struct Clutter<'a> {
     around: Vec<OnceCell<Around>>,
 }
 
-/// How many events lie around one, each by how like its loudness is: in either surroundings, and in the whole recording.
+/// How many events lie around one, each by how like it is in loudness and sound: in either surroundings, and in the whole recording.
 #[derive(Debug, Clone, Copy, Default)]
 struct Around {
     near: [f64; 2],
@@ -73,9 +73,10 @@ impl<'a> Clutter<'a> {
         let first = (self.events).partition_point(|e| e.time_s < this.time_s - NEAR_S[0]);
         let last = (self.events).partition_point(|e| e.time_s <= this.time_s + NEAR_S[0]);
         let others = (first..last).filter(|&i| i != event);
+        let kind = Kind::of(this);
         let mut near = [0.0; 2];
         for other in others.map(|i| &self.events[i]) {
-            add_where_near(&mut near, loudness_kernel(other, this), other, this);
+            add_where_near(&mut near, kind.density_near(other), other, this);
         }
         near
     }
@@ -96,7 +97,8 @@ impl<'a> Clutter<'a> {
         let step = range.len().div_ceil(COMPARED).max(1);
         let some = self.by_loudness[range].iter().step_by(step);
         let others = some.filter(|&&i| i != event);
-        let likeness = others.map(|&i| loudness_kernel(&self.events[i], this));
+        let kind = Kind::of(this);
+        let likeness = others.map(|&i| kind.density_near(&self.events[i]));
         real(step) * likeness.sum::<f64>()
     }
 
@@ -119,7 +121,7 @@ pub struct Rates<'a> {
     hopeful: bool,
 }
 
-/// What is known of the clutter at one event: how much of it is near and as loud, and its rate at large.
+/// What is known of the clutter at one event: how much of it is near and like it, and its rate at large.
 #[derive(Debug, Clone, Copy)]
 struct Local {
     /// How much, in how many seconds, of each surroundings.
@@ -164,12 +166,12 @@ impl<'a> Rates<'a> {
         self
     }
 
-    /// ln of the rate of clutter as loud as an event, itself not counted, after or before a flight: per second and per unit
+    /// ln of the rate of clutter like an event, itself not counted, after or before a flight: per second and per unit
     /// of ln loudness.
     ///
     /// # Formula
-    /// Every event counts by how like its loudness is, `φ((l − l')/h)/h`: those near the event, and of the whole recording
-    /// `m = Σ φ/h / D + κ/R`, κ a rate of knocks of any loudness in a range R.
+    /// Every event counts by how like it is in loudness and sound, `f = φ((l − l')/h)/h · min(1, L)`: those near the event, and of
+    /// the whole recording `m = Σ f / D + κ/R`, κ a rate of knocks of any loudness in a range R.
     pub(super) fn ln_per_s(&mut self, event: usize, flight_s: f64) -> f64 {
         let local = match self.known[event] {
             Some(local) => local,
@@ -208,9 +210,10 @@ impl<'a> Rates<'a> {
     fn own_around(&self, event: usize) -> Around {
         let events = self.clutter.events;
         let this = &events[event];
+        let kind = Kind::of(this);
         let mut own = Around::default();
         for &i in self.associated.iter().filter(|&&i| i != event) {
-            let like = loudness_kernel(&events[i], this);
+            let like = kind.density_near(&events[i]);
             own.at_large += like;
             add_where_near(&mut own.near, like, &events[i], this);
         }

@@ -26,14 +26,45 @@ const UNLIKENESS_AT_LARGE: f64 = 0.25;
 /// Share of impacts whose sound is like none before.
 const OTHER: f64 = 0.1;
 
-/// Density of the loudness of an event where another was found: normal.
-pub(super) fn loudness_kernel(a: &Event, b: &Event) -> f64 {
-    let off = (a.loudness - b.loudness).abs();
-    if off > KERNEL_REACH {
-        return 0.0;
+/// Sounds of the kind of one event: where one of them is found, others are, as loud and alike.
+#[derive(Debug)]
+pub(super) struct Kind<'a> {
+    event: &'a Event,
+    likeness: Likeness,
+    /// Up to this unlikeness two sounds are likelier of one kind than of any.
+    alike: f64,
+}
+
+impl<'a> Kind<'a> {
+    pub(super) fn of(event: &'a Event) -> Self {
+        let likeness = Likeness::among(event.strength);
+        Self {
+            event,
+            alike: -likeness.width * likeness.at_large.ln(),
+            likeness,
+        }
     }
-    let off = off / KERNEL_WIDTH;
-    0.5 * FRAC_1_SQRT_2 * FRAC_2_SQRT_PI / KERNEL_WIDTH * (-0.5 * off * off).exp()
+
+    /// Density of the loudness of the event where another was found, as far as that is of its kind.
+    ///
+    /// # Formula
+    /// `φ((l − l')/h)/h · min(1, L)` for loudnesses l and l', L being how much likelier so like a sound is of one kind than of any:
+    /// what sounds otherwise counts less, what sounds alike counts once.
+    pub(super) fn density_near(&self, other: &Event) -> f64 {
+        let off = (self.event.loudness - other.loudness).abs();
+        if off > KERNEL_REACH {
+            return 0.0;
+        }
+        let off = off / KERNEL_WIDTH;
+        let loudness =
+            0.5 * FRAC_1_SQRT_2 * FRAC_2_SQRT_PI / KERNEL_WIDTH * (-0.5 * off * off).exp();
+        let unlikeness = self.event.profile.unlikeness(&other.profile);
+        if unlikeness <= self.alike {
+            loudness
+        } else {
+            loudness * self.likeness.of(unlikeness)
+        }
+    }
 }
 
 /// ln of the density of the loudness of an impact so far from what is expected: Student's with four degrees of freedom.
@@ -42,20 +73,42 @@ pub(super) fn ln_loudness_density(off: f64) -> f64 {
     (0.375 / LOUDNESS_SPREAD).ln() - 2.5 * (0.25 * squared).ln_1p()
 }
 
+/// How much likelier it is that two sounds of one ball are as unlike as this than that any two are.
+#[derive(Debug, Clone, Copy)]
+struct Likeness {
+    /// Mean unlikeness of two sounds of one ball.
+    width: f64,
+    /// What it would be of any two, on average.
+    at_large: f64,
+}
+
+impl Likeness {
+    /// Of an event of so many nats.
+    fn among(strength: f64) -> Self {
+        let width = LEAST_UNLIKENESS + FAINT_UNLIKENESS / strength;
+        Self {
+            width,
+            at_large: width / (width + UNLIKENESS_AT_LARGE),
+        }
+    }
+
+    /// # Formula
+    /// `(1 − ε)·exp(−u/τ)/Z + ε` for profiles as unlike as u, `τ = τ₀ + c/s` for an event of s nats, and `Z = τ/(τ + ū)`, the mean
+    /// of `exp(−u/τ)` where u is exponential with mean ū, as it is of two sounds at large.
+    fn of(self, unlikeness: f64) -> f64 {
+        let like = (-unlikeness / self.width).exp() / self.at_large;
+        (1.0 - OTHER) * like + OTHER
+    }
+}
+
 /// ln of how much likelier the sound of an event is after one of the same ball than it is at large; 0 where nothing is
 /// known of one of them.
-///
-/// # Formula
-/// `(1 − ε)·exp(−u/τ)/Z + ε` for profiles as unlike as u, `τ = τ₀ + c/s` for an event of s nats, and `Z = τ/(τ + ū)`, the mean
-/// of `exp(−u/τ)` where u is exponential with mean ū, as it is of two sounds at large.
 pub(super) fn ln_likeness(event: &Event, before: &Profile) -> f64 {
     if !event.profile.is_known() || !before.is_known() {
         return 0.0;
     }
-    let width = LEAST_UNLIKENESS + FAINT_UNLIKENESS / event.strength;
-    let at_large = width / (width + UNLIKENESS_AT_LARGE);
-    let like = (-event.profile.unlikeness(before) / width).exp() / at_large;
-    ((1.0 - OTHER) * like + OTHER).ln()
+    let likeness = Likeness::among(event.strength);
+    likeness.of(event.profile.unlikeness(before)).ln()
 }
 
 /// ln of the density of what an event sounds like as the next impact of a ball, whose speed changes by this ratio.

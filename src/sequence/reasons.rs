@@ -50,8 +50,8 @@ pub const NAMED: usize = 50;
 /// A drop's rejected events are named from this share of its impacts' median strength on.
 const NOTABLE_SHARE: f64 = 0.3;
 
-/// Whether a chain is the echo of another, or the same again: more than half of its impacts follow one of the other's at
-/// the same delay.
+/// Whether a chain is the echo of another, or the same again: more than half of its impacts belong to the sound of one of the
+/// other's, or follow one at the same delay.
 #[must_use]
 pub fn is_echo_of(chain: &Chain, direct: &Chain) -> bool {
     let delays = chain.impacts.iter();
@@ -61,15 +61,18 @@ pub fn is_echo_of(chain: &Chain, direct: &Chain) -> bool {
     let Some(median) = upper_median(delays.iter().copied()) else {
         return false;
     };
-    let same = |delay: &&f64| (**delay - median).abs() < DELAY_TOLERANCE_S;
+    let same = |delay: &&f64| (**delay - median).abs() < DELAY_TOLERANCE_S || delay.abs() < NEAR_S;
     median < LONGEST_DELAY_S && 2 * delays.iter().filter(same).count() > chain.impacts.len()
 }
 
-/// Seconds from the impact of a chain before a time, or just after it.
+/// Seconds from the impact of a chain before a time, or to one that is nearer and just after it.
 fn delay_after(chain: &Chain, time_s: f64) -> Option<f64> {
     let impacts = &chain.impacts;
-    let before = impacts.partition_point(|i| i.time_s <= time_s + NEAR_S);
-    Some(time_s - impacts[before.checked_sub(1)?].time_s)
+    let after = impacts.partition_point(|i| i.time_s <= time_s);
+    let before = after.checked_sub(1).map(|i| time_s - impacts[i].time_s);
+    let ahead = impacts.get(after).map(|i| time_s - i.time_s);
+    let just_after = ahead.filter(|ahead| -ahead < before.unwrap_or(f64::INFINITY).min(NEAR_S));
+    just_after.or(before)
 }
 
 /// Which events a chain explains, in order: its impacts and their echoes.
