@@ -16,6 +16,9 @@ const LOUDEST_WITHIN_S: f64 = 0.012;
 /// The body of a sound, in seconds from its onset on: its profile is that of an impact with its ring, and not of its first edge
 /// alone, which depends on where exactly the onset was put.
 const BODY_S: f64 = 0.03;
+/// A sound is short if half of its energy is over by this time after its onset, in seconds. Measured: 40 of 46 impacts of eight
+/// recordings, one in three other sounds of them.
+const SHORT_S: f64 = 0.03;
 /// The usual level before an onset is learnt from this stretch, in seconds before it.
 const BEFORE_S: (f64, f64) = (0.03, 2e-3);
 /// The course of a sound is followed in steps of so many seconds.
@@ -88,13 +91,15 @@ impl Spectrum {
             self.above(event.time_s, from_s, from_s + STEP_S)
                 .sum::<f64>()
         };
-        let course = (0..whole(LOUDEST_WITHIN_S / STEP_S)).map(step);
-        let loudest = course.fold(0.0, f64::max);
+        let course: Vec<f64> = (0..whole(OWN_S / STEP_S)).map(step).collect();
+        let energy = |until_s: f64| course[..whole(until_s / STEP_S)].iter();
+        let loudest = energy(LOUDEST_WITHIN_S).copied().fold(0.0, f64::max);
         let body = self.above(event.time_s, 0.0, BODY_S);
         (loudest > 0.0).then(|| ClearSound {
             time_s: event.time_s,
             jitter_s: event.jitter_s,
             level: 0.5 * loudest.ln(),
+            is_short: 2.0 * energy(SHORT_S).sum::<f64>() > energy(OWN_S).sum::<f64>(),
             profile: Profile::new(body.map(narrow)),
         })
     }

@@ -15,6 +15,8 @@ pub struct ClearSound {
     pub jitter_s: f64,
     /// How loud it is: ln of the root mean square where it is loudest.
     pub level: f64,
+    /// Whether most of it is over soon after its onset, as of what was struck.
+    pub is_short: bool,
     /// How its energy is spread over the octaves.
     pub profile: Profile,
 }

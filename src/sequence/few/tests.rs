@@ -6,6 +6,7 @@ fn sounds(at: &[(f64, f64)]) -> Vec<ClearSound> {
         time_s,
         jitter_s: 2e-4,
         level,
+        is_short: true,
         profile: Profile::new([1.0, 4.0, 2.0].into_iter()),
     };
     at.iter().map(sound).collect()
