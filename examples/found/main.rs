@@ -12,6 +12,7 @@
 //! cargo run --release --example found -- knocks           what knocks before a drop cost it
 //! cargo run --release --example found -- copies DIR       recordings put several times into one
 //! cargo run --release --example found -- nothing [DIR]    clips without a ball, and recordings without one
+//! cargo run --release --example found -- voices DIR DIR   recordings of drops under recordings of voices, and those alone
 //! ```
 //!
 //! Each prints a table of a line per row, so that `diff` compares two builds. The product knows nothing of this.
@@ -37,6 +38,7 @@ mod parallel;
 mod range;
 mod rebound;
 mod trial;
+mod voices;
 
 use std::env;
 use std::path::Path;
@@ -57,8 +59,9 @@ fn main() {
         ["copies", folder] => copies::table(Path::new(folder)),
         ["nothing"] => nothing::table(None),
         ["nothing", folder] => nothing::table(Some(Path::new(folder))),
+        ["voices", balls, voices] => voices::table(Path::new(balls), Path::new(voices)),
         _ => eprintln!(
-            "found range | scatter | alternating | odd | begin | few | rebound | curve | knocks | copies DIR | nothing [DIR]"
+            "found range | scatter | alternating | odd | begin | few | rebound | curve | knocks | copies DIR | nothing [DIR] | voices DIR DIR"
         ),
     }
 }
