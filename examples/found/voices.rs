@@ -35,29 +35,28 @@ struct Covered {
     found: usize,
     /// Impacts that were none alone.
     beside: usize,
-    whole: usize,
-    recordings: usize,
+    whole: bool,
 }
 
 pub(crate) fn table(balls: &Path, voices: &Path) {
     let balls = sounds(balls);
     let voices = sounds(voices);
+    let jobs: Vec<(&Sound, &Sound, usize)> = balls
+        .iter()
+        .filter(|ball| ball.analysis.drops.len() == 1)
+        .flat_map(|ball| voices.iter().map(move |voice| (ball, voice)))
+        .flat_map(|(ball, voice)| (0..PLACES).map(move |place| (ball, voice, place)))
+        .collect();
     println!("voice    | whole  | impacts found | beside them");
     for level_db in LEVELS_DB {
-        let jobs: Vec<(&Sound, &Sound, usize)> = balls
-            .iter()
-            .filter(|ball| ball.analysis.drops.len() == 1)
-            .flat_map(|ball| voices.iter().map(move |voice| (ball, voice)))
-            .flat_map(|(ball, voice)| (0..PLACES).map(move |place| (ball, voice, place)))
-            .collect();
         let found = each(&jobs, |(ball, voice, place)| {
             covered(ball, voice, *place, level_db)
         });
         let sum = |of: fn(&Covered) -> usize| found.iter().map(of).sum::<usize>();
         println!(
             "{level_db:>5} dB | {}/{} | {}/{} | {}",
-            sum(|c| c.whole),
-            sum(|c| c.recordings),
+            sum(|c| usize::from(c.whole)),
+            found.len(),
             sum(|c| c.found),
             sum(|c| c.impacts),
             sum(|c| c.beside),
@@ -117,8 +116,7 @@ fn covered(ball: &Sound, voice: &Sound, place: usize, level_db: f64) -> Covered 
         impacts: alone.len(),
         found: again,
         beside: beside.count(),
-        whole: usize::from(found.drops.len() == 1 && again as f64 > WHOLE * alone.len() as f64),
-        recordings: 1,
+        whole: found.drops.len() == 1 && again as f64 > WHOLE * alone.len() as f64,
     }
 }
 

@@ -17,9 +17,12 @@ pub(super) fn meant(arguments: &[OsString]) -> Option<String> {
     let recordings: Vec<&String> = given.iter().filter(|a| is_recording(a)).collect();
     let first = given.first()?;
     let command = super::Arguments::command();
+    let is_option = first.starts_with('-');
     let known = first == "help" || command.get_subcommands().any(|c| c.get_name() == first);
     match (known, recordings.as_slice()) {
         (false, []) => None,
+        // A command that was misspelt is clap's to mend.
+        (false, _) if !is_option && !is_recording(first) => None,
         (false, [one]) if Path::new(one.as_str()).is_dir() => Some(format!(
             "a command is missing. To listen to all recordings in a folder: bounce-audio batch {}",
             quoted(&given)
@@ -96,6 +99,7 @@ mod tests {
         for line in [
             &[][..],
             &["anlyze"],
+            &["analyse", "a.wav"],
             &["analyze"],
             &["analyze", "a.wav", "--hieght", "1"],
             &["solve", "a.wav", "b.wav"],

@@ -116,3 +116,42 @@ pub(super) fn ln_sounds(before: &Event, event: &Event, ratio: f64) -> f64 {
     let louder = event.loudness - before.loudness - ratio.ln();
     ln_loudness_density(louder) + ln_likeness(event, &before.profile)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn event(profile: Profile) -> Event {
+        Event {
+            time_s: 0.0,
+            jitter_s: 1e-4,
+            strength: 200.0,
+            loudness: 1.0,
+            profile,
+        }
+    }
+
+    #[test]
+    fn what_sounds_otherwise_counts_less_and_what_sounds_alike_or_is_unknown_once() {
+        let one = event(Profile::new([9.0, 1.0].into_iter()));
+        let other = event(Profile::new([0.0, 0.0, 5.0].into_iter()));
+        let unknown = event(Profile::default());
+        let once = FRAC_1_SQRT_2 * FRAC_2_SQRT_PI / (2.0 * KERNEL_WIDTH);
+        let kind = Kind::of(&one);
+        let near = |density: f64, expected: f64| (density / expected - 1.0).abs() < 1e-12;
+        assert!(near(kind.density_near(&one), once));
+        assert!(near(kind.density_near(&other), OTHER * once));
+        assert!(near(kind.density_near(&unknown), once));
+        assert!(near(Kind::of(&unknown).density_near(&other), once));
+    }
+
+    #[test]
+    fn what_is_much_louder_or_fainter_does_not_count() {
+        let one = event(Profile::new([9.0, 1.0].into_iter()));
+        let far = Event {
+            loudness: one.loudness + 1.01 * KERNEL_REACH,
+            ..one
+        };
+        assert!(Kind::of(&one).density_near(&far) == 0.0);
+    }
+}

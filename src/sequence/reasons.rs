@@ -211,3 +211,34 @@ fn median_strength(scene: &Scene<'_>, track: &Track) -> f64 {
     let heard = track.events.iter();
     upper_median(heard.map(|&i| scene.events[i].strength)).unwrap_or(0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::impact::Impact;
+
+    /// Impacts of a ball of e = 0.85, each this much later than it strikes.
+    fn ball(first_s: f64, late_s: impl Fn(usize) -> f64) -> Chain {
+        let time_s = |n: usize| first_s + 0.5 * (1.0 - 0.85_f64.powf(real(n))) / (1.0 - 0.85);
+        let impact = |n: usize| Impact::heard(time_s(n) + late_s(n), 1e-5);
+        Chain {
+            impacts: (0..26).map(impact).collect(),
+            rejected: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn an_echo_is_one_also_where_it_goes_over_to_the_impacts_themselves() {
+        let direct = ball(1.0, |_| 0.0);
+        let echo = ball(1.0, |_| 0.018);
+        let goes_over = ball(1.0, |n| if n < 13 { 0.018 } else { 1e-4 });
+        assert!(is_echo_of(&echo, &direct) && is_echo_of(&goes_over, &direct));
+        assert!(!is_echo_of(&direct, &echo));
+    }
+
+    #[test]
+    fn another_ball_is_no_echo() {
+        let direct = ball(1.0, |_| 0.0);
+        assert!(!is_echo_of(&ball(1.37, |_| 0.0), &direct));
+    }
+}

@@ -9,11 +9,16 @@ use crate::common::{empty_folder, json, only_drop, run, synthesized, text};
 
 /// A ball of e = 0.78 from 1 m that is caught after so many impacts, at 44.1 kHz.
 fn caught(folder: &Path, impacts: usize) -> String {
+    caught_with(folder, impacts, 4e-3)
+}
+
+/// Such a ball whose sound fades to 1/e in so many seconds.
+fn caught_with(folder: &Path, impacts: usize, decay_s: f64) -> String {
     let scene = format!(
         "name = 'caught'\nsample_rate_hz = 44100\nduration_s = 4.0\npeak_db = -3.0\nnoise.white_db = -62.0\n\
          [[drops]]\nheight_m = 1.0\nmass_kg = 0.05\ndiameter_m = 0.04\ndrag = false\nfirst_impact_s = 1.2\n\
          bounce.constant = {{ restitution = 0.78, contact_time_s = 1e-3 }}\nmost_impacts = {impacts}\n\
-         modes = [{{ frequency_hz = 1200.0, decay_s = 4e-3, level = 1.0 }}]\n"
+         modes = [{{ frequency_hz = 1200.0, decay_s = {decay_s}, level = 1.0 }}]\n"
     );
     synthesized(folder, &format!("caught-{impacts}"), &scene)
 }
@@ -161,4 +166,11 @@ fn what_comes_nearest_to_a_drop_is_said_written_as_labels_and_can_be_fitted() {
         offered.as_array().unwrap().len()
     );
     assert_eq!(taken[0]["time_s"], offered[0]["time_s"]);
+}
+
+#[test]
+fn two_sounds_that_last_are_no_drop() {
+    let folder = empty_folder("few", "long");
+    let document = json(&["analyze", &caught_with(&folder, 2, 0.15), "--height", "1m"]);
+    assert!(document["drops"].as_array().unwrap().is_empty());
 }

@@ -60,3 +60,22 @@ fn much_fainter_sounds_between_them_change_nothing() {
     at.sort_by(|a, b| a.0.total_cmp(&b.0));
     assert_eq!(found(&at, Some(0.8)), Some(2));
 }
+
+#[test]
+fn two_sounds_that_last_long_are_not_enough() {
+    let mut long = sounds(&TWO);
+    long.iter_mut().for_each(|sound| sound.is_short = false);
+    let few = few_impacts(&long, 6.0, Some(0.8));
+    assert!(!few.is_some_and(|few| few.are_enough()));
+}
+
+#[test]
+fn a_sound_of_another_kind_counts_while_it_is_not_much_fainter() {
+    let nats = |level: f64| {
+        let mut sounds = sounds(&[TWO[0], (1.3, level), TWO[1]]);
+        sounds[1].profile = Profile::new([0.0, 0.0, 0.0, 5.0].into_iter());
+        few_impacts(&sounds, 6.0, Some(0.8)).unwrap().nats
+    };
+    let (comparable, faint) = (nats(-3.0), nats(-4.0));
+    assert!(comparable < faint - 1.0, "{comparable} {faint}");
+}
