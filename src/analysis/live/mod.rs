@@ -1,7 +1,7 @@
 //! Drops told while they are played.
 //!
-//! Twice a second the last seconds are searched for chains, which is cheap. A chain that is over, and that was not measured
-//! before, is measured once; what is heard of it later is told as a correction. Noise and a knock each second put nothing
+//! Twice a second the latest seconds are searched for chains, which is cheap. Where they show one that is over and was not
+//! measured before, a longer window is searched, and what it shows is measured once; what is heard of it later is told as a correction. Noise and a knock each second put nothing
 //! off: no scene has to end.
 
 mod known;
@@ -22,8 +22,10 @@ use crate::units::{frame_at, frame_time_s, frames, length, samples_in};
 use crate::workers::Workers;
 use known::{Known, Times};
 
-/// The last seconds that are searched. Convention: a drop of ten seconds with as much around it.
+/// The last seconds that are searched where the latest show something new. Convention: a drop of ten seconds with as much around it.
 const WINDOW_S: f64 = 20.0;
+/// The latest seconds, which are searched each time: a chain is seen in them while its drop goes on and when it is over.
+const LATEST_S: f64 = 6.0;
 /// How often, in seconds. With [`RESTS_S`] a drop is told within a second of its last impact.
 const EVERY_S: f64 = 0.5;
 /// Most audio between two searches, in seconds, however much is handed over: who lags behind catches up.
@@ -230,16 +232,68 @@ impl Live {
         (ended || self.goes_on) && self.end() - self.searched >= every
     }
 
-    /// Searches the last seconds, and measures what is new; where the sound ends here, all is over.
+    /// Searches the latest seconds, and all of the window where they show something new; where the sound ends here, all is
+    /// over.
     fn search(&mut self, ends: bool) -> Result<Vec<Told>, Error> {
         self.searched = self.end();
+        let now_s = frame_time_s(self.end(), self.sample_rate_hz);
+        self.known
+            .retain(|known| known.ends_after(now_s - WINDOW_S));
+        let mut latest = self.chained(LATEST_S).found.drops;
+        self.goes_on = latest.iter().any(|chain| is_open(chain, now_s));
+        let is_last = ends || self.hears() == Hears::Nothing;
+        keep_wanted(&mut latest, &self.known, now_s, ends);
+        if latest.is_empty() && !is_last {
+            return Ok(Vec::new());
+        }
+        let mut chained = self.chained(WINDOW_S);
+        let chains = &mut chained.found.drops;
+        let goes_on = chains.iter().any(|chain| is_open(chain, now_s));
+        let latest = latest.iter().map(Times::of_chain);
+        let unconfirmed = latest.filter(|l| !chains.iter().any(|c| l.is_same(&Times::of_chain(c))));
+        let unconfirmed: Vec<Times> = unconfirmed.collect();
+        // Two or three impacts count where there is no drop, once nothing follows them.
+        let few = chains.is_empty() && is_last;
+        keep_wanted(chains, &self.known, now_s, ends);
+        let seen: Vec<Times> = chains.iter().map(Times::of_chain).collect();
+        let drops = if seen.is_empty() && !few {
+            Vec::new()
+        } else {
+            self.measured(chained, &seen, now_s)?
+        };
+        self.goes_on = goes_on;
+        for times in unconfirmed {
+            // It is not looked for again, unless it goes on.
+            self.see(&times);
+        }
+        let is_over = |drop: &Drop| ends || is_over(&Times::of_drop(drop), now_s);
+        Ok(self.tell_all(drops, &seen, is_over))
+    }
+
+    /// The drops of chains that were seen so.
+    fn measured(
+        &self,
+        chained: Chained<'_>,
+        seen: &[Times],
+        now_s: f64,
+    ) -> Result<Vec<Drop>, Error> {
+        let reported_s = known::reported_s(&self.known, seen);
+        let workers = Workers::default();
+        let result = chained.measured(&reported_s, &self.detector, &self.settings, workers)?;
+        let few = result.few.filter(Heard::is_enough);
+        let measured = result.drops.into_iter().chain(few.map(|few| few.measured));
         let extent = Extent {
             first_channel: 0,
-            end_s: frame_time_s(self.end(), self.sample_rate_hz),
+            end_s: now_s,
         };
-        let first = frame_at(extent.end_s - WINDOW_S, self.sample_rate_hz).max(self.from);
-        let from_s = frame_time_s(first, self.sample_rate_hz);
-        self.known.retain(|known| known.ends_after(from_s));
+        let drops = measured.map(|m| m.within(extent, &self.settings));
+        drops.collect()
+    }
+
+    /// The chains of the last seconds held, not measured.
+    fn chained(&self, last_s: f64) -> Chained<'_> {
+        let last = frames(samples_in(last_s, self.sample_rate_hz));
+        let first = self.end().saturating_sub(last).max(self.from);
         let held = self.held.iter();
         let channels: Vec<&[f32]> = held.map(|h| &h[length(first - self.from)..]).collect();
         let bounds = Bounds {
@@ -247,28 +301,7 @@ impl Live {
             listened_from: 0,
             cut: false,
         };
-        let workers = Workers::default();
-        let mut chained = Chained::of(&channels, &bounds, &self.detector, workers);
-        let chains = &mut chained.found.drops;
-        let is_open = |chain: &Chain| !is_over(&Times::of_chain(chain), extent.end_s);
-        self.goes_on = chains.iter().any(is_open);
-        // Two or three impacts count where there is no drop, once nothing follows them.
-        let few = chains.is_empty() && (ends || self.hears() == Hears::Nothing);
-        let wanted = wanted(chains, &self.known, extent.end_s, ends);
-        let mut of_wanted = wanted.iter();
-        chains.retain(|_| of_wanted.next().is_some_and(|wanted| *wanted));
-        if chains.is_empty() && !few {
-            return Ok(Vec::new());
-        }
-        let seen: Vec<Times> = chains.iter().map(Times::of_chain).collect();
-        let reported_s = known::reported_s(&self.known, &seen);
-        let result = chained.measured(&reported_s, &self.detector, &self.settings, workers)?;
-        let few = result.few.filter(Heard::is_enough);
-        let measured = result.drops.into_iter().chain(few.map(|few| few.measured));
-        let drops = measured.map(|m| m.within(extent, &self.settings));
-        let is_over = |drop: &Drop| ends || is_over(&Times::of_drop(drop), extent.end_s);
-        let drops = drops.collect::<Result<Vec<Drop>, Error>>()?;
-        Ok(self.tell_all(drops, &seen, is_over))
+        Chained::of(&channels, &bounds, &self.detector, Workers::default())
     }
 
     /// What there is to tell of the drops that were measured, of chains as they were seen.
@@ -315,8 +348,9 @@ impl Live {
     }
 }
 
-/// Which chains are to be measured: those that are over, that are no echo of another, and that say more than those known.
-fn wanted(chains: &[Chain], known: &[Known], now_s: f64, ends: bool) -> Vec<bool> {
+/// Keeps the chains that are to be measured: those that are over, that are no echo of another, and that say more than those
+/// known.
+fn keep_wanted(chains: &mut Vec<Chain>, known: &[Known], now_s: f64, ends: bool) {
     let is_wanted = |chain: &Chain| {
         let times = Times::of_chain(chain);
         let echoes =
@@ -325,7 +359,14 @@ fn wanted(chains: &[Chain], known: &[Known], now_s: f64, ends: bool) -> Vec<bool
             && known.iter().all(|k| k.is_news(&times))
             && !chains.iter().any(echoes)
     };
-    chains.iter().map(is_wanted).collect()
+    let wanted: Vec<bool> = chains.iter().map(is_wanted).collect();
+    let mut of_wanted = wanted.into_iter();
+    chains.retain(|_| of_wanted.next().unwrap_or(false));
+}
+
+/// Whether impacts may follow those of a chain, at this time.
+fn is_open(chain: &Chain, now_s: f64) -> bool {
+    !is_over(&Times::of_chain(chain), now_s)
 }
 
 /// Whether no impact follows these, at this time.

@@ -75,6 +75,21 @@ fn each_drop_is_told_once_and_within_a_second() {
     }
 }
 
+/// Faint last impacts are found in measuring alone, and a drop that then goes on is told once it is over.
+#[test]
+fn drops_whose_ends_are_faint_are_told() {
+    for ball in ["golf", "rubber", "tennis"] {
+        let mut scene = preset(ball).unwrap();
+        scene.duration_s += 4.0;
+        scene.noise.pink_db = -45.0;
+        let played = render(&scene, 1).unwrap();
+        let rate_hz = f64::from(scene.sample_rate_hz);
+        let mut live = Live::new(1, rate_hz, &Settings::default()).unwrap();
+        let told = heard(&mut live, &played.samples);
+        assert_eq!(told.len(), 1, "{ball}");
+    }
+}
+
 #[test]
 fn what_is_heard_goes_from_nothing_to_a_drop_and_back() {
     let mut live = live();
