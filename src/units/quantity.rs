@@ -113,7 +113,7 @@ impl Quantity {
                 argument,
                 got: format!("'{text}'"),
                 expected: if comma {
-                    "a decimal point and no comma, such as 30.5"
+                    "a decimal point and no comma, such as 30.5 with its unit"
                 } else {
                     self.expected()
                 },
