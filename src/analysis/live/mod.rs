@@ -1,8 +1,8 @@
 //! Drops told while they are played.
 //!
 //! Twice a second the latest seconds are searched for chains, which is cheap. Where they show one that is over and was not
-//! measured before, a longer window is searched, and what it shows is measured once; what is heard of it later is told as a correction. Noise and a knock each second put nothing
-//! off: no scene has to end.
+//! measured before, a longer window is searched, and what it shows is measured once; what is heard of it later is told as a
+//! correction. Noise and a knock each second put nothing off: no scene has to end.
 
 mod known;
 
@@ -22,7 +22,8 @@ use crate::units::{frame_at, frame_time_s, frames, length, samples_in};
 use crate::workers::Workers;
 use known::{Known, Times};
 
-/// The last seconds that are searched where the latest show something new. Convention: a drop of ten seconds with as much around it.
+/// The last seconds that are searched where the latest show something new. Convention: a drop of ten seconds with as much
+/// around it.
 const WINDOW_S: f64 = 20.0;
 /// The latest seconds, which are searched each time: a chain is seen in them while its drop goes on and when it is over.
 const LATEST_S: f64 = 6.0;
