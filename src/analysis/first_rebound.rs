@@ -1,19 +1,14 @@
 //! The first impact by the fall before it and the flight after it.
 
+use super::Settings;
+use super::course::{Course, Sized};
 use super::model::Modelled;
-use super::{Settings, model};
 use crate::Error;
 use crate::fit::Estimate;
-use crate::fit::model::Parameter;
 use crate::impact::Impact;
 use crate::physics::ends::Ends;
-use crate::physics::priors::{CONTACT_RELATIVE_STD, UNKNOWN_CONTACT_STD_S};
-use crate::physics::{DRAG_RELATIVE_STD, FlightLaw};
 use crate::report::{Bounce, Rebound};
 use crate::statistics::NORMAL95;
-
-/// A number and its standard deviation.
-type Sized = (f64, f64);
 
 /// The first impact of a drop from a known height.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +16,10 @@ pub(super) struct FirstRebound {
     pub arrival_m_per_s: f64,
     arrival_std_m_per_s: f64,
     leaving_m_per_s: f64,
-    leaving_std_m_per_s: f64,
+    /// Relative error of the leaving speed by the flight's time.
+    leaving_std: f64,
+    /// Relative error of gravity: by the air that the ball displaces.
+    gravity_std: f64,
     /// Relative error of e by the drag, which counts in both speeds.
     drag_std: f64,
     drop_height: Sized,
@@ -30,68 +28,15 @@ pub(super) struct FirstRebound {
     rebound_drag_std: f64,
 }
 
-/// What is known of contact and drag.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Course {
-    pub contact_s: Sized,
-    gravity_m_per_s2: f64,
-    drag_per_s2: Sized,
-}
-
-impl Course {
-    /// By what is given, else by what the flights say. Where they say nothing the contact is 0 with
-    /// [`UNKNOWN_CONTACT_STD_S`], and the drag counts as the ball's.
-    pub(super) fn of(modelled: &Modelled, settings: &Settings) -> Result<Self, Error> {
-        let law = model::law(settings)?;
-        let given = settings.contact_time_s;
-        let given = given.map(|c| (c, CONTACT_RELATIVE_STD * c));
-        let contact = given.or_else(|| fitted(modelled.contact));
-        let contact = contact.filter(|(_, std)| *std < UNKNOWN_CONTACT_STD_S);
-        let drag = law.map(|law| law.drag_per_s2());
-        let drag = drag.map(|drag| (drag, DRAG_RELATIVE_STD * drag));
-        Ok(Self {
-            contact_s: contact.unwrap_or((0.0, UNKNOWN_CONTACT_STD_S)),
-            // In air a ball weighs less.
-            gravity_m_per_s2: law.map_or(settings.gravity_m_per_s2, |law| law.gravity_m_per_s2()),
-            drag_per_s2: drag.or_else(|| fitted(modelled.drag)).unwrap_or((0.0, 0.0)),
-        })
-    }
-
-    /// The flight with the drag off by so many of its standard deviations.
-    pub(super) fn law(&self, off: f64) -> Result<FlightLaw, Error> {
-        let (drag, std) = self.drag_per_s2;
-        FlightLaw::with_drag(self.gravity_m_per_s2, (drag + off * std).max(0.0))
-    }
-
-    /// The start of a flight between two touches, with the drag off likewise; none where the contact fills the flight.
-    pub(super) fn ends(&self, flight_s: f64, off: f64) -> Option<Ends> {
-        let (drag, std) = self.drag_per_s2;
-        Ends::of(flight_s - self.contact_s.0, (drag + off * std).max(0.0))
-    }
-
-    pub(super) fn leaving_m_per_s(&self, ends: &Ends) -> f64 {
-        0.5 * self.gravity_m_per_s2 * ends.ln_leaving.exp()
-    }
-
-    pub(super) fn landing_m_per_s(&self, ends: &Ends) -> f64 {
-        0.5 * self.gravity_m_per_s2 * ends.ln_landing.exp()
-    }
-}
-
-/// A parameter that the flights tell.
-fn fitted(parameter: Option<Parameter>) -> Option<Sized> {
-    let parameter = parameter?;
-    Some((parameter.value.max(0.0), parameter.std?))
-}
-
 impl FirstRebound {
     /// Of a drop from the height of the settings; none without one and where the contact fills the flight.
     ///
     /// # Formula
     /// ```text
     /// v = √(2·g·h),   u = g·(T₁ − C)/2   (with drag those of its fall and flight),   e = u/v,   h₁ = u²/2g
-    /// (σ/e)² = (σ_T/T₁)² + (σ_h/2h)²,   σ_T² = s₁² + s₂² + σ_C²
+    /// (σ/e)² = (σ_T/T₁)² + (σ_h/2h)² + (σ_g/2g)²,   σ_T² = s₁² + s₂² + σ_C²
     /// ```
+    /// g is that in air: without mass and diameter σ_g/g is 3/2 of the error of β, the displaced air's share of the mass.
     pub(super) fn of(
         timed: &[Impact],
         flight_s: f64,
@@ -110,10 +55,11 @@ impl FirstRebound {
             Ok(course.law(off)?.fall(height_m)?.landing_speed_m_per_s)
         };
         let rise = |ends: &Ends, off: f64| -> Result<f64, Error> {
-            let leaving = course.leaving_m_per_s(ends);
+            let leaving = course.leaving_m_per_s(ends, off);
             Ok(course.law(off)?.rise(leaving)?.height_m)
         };
-        let leaving = course.leaving_m_per_s(&middle);
+        let leaving = course.leaving_m_per_s(&middle, 0.0);
+        let left = course.leaving_m_per_s(&more, 1.0) / course.leaving_m_per_s(&less, -1.0);
         let std_s = timed[0]
             .std_s
             .hypot(timed[1].std_s)
@@ -126,31 +72,28 @@ impl FirstRebound {
             arrival_m_per_s: fall,
             arrival_std_m_per_s: higher - fall,
             leaving_m_per_s: leaving,
-            leaving_std_m_per_s: leaving * (middle.leaving_slope * std_s).hypot(settings.clock_std),
-            drag_std: 0.5 * (more.ln_leaving - less.ln_leaving - fell).abs(),
+            leaving_std: (middle.leaving_slope * std_s).hypot(settings.clock_std),
+            gravity_std: course.gravity_std(),
+            drag_std: 0.5 * (left.ln() - fell).abs(),
             drop_height: (height_m, settings.height_std_m),
             rebound_m: rise(&middle, 0.0)?,
             rebound_drag_std: 0.5 * rose.abs(),
         }))
     }
 
-    fn leaving_std(&self) -> f64 {
-        self.leaving_std_m_per_s / self.leaving_m_per_s
-    }
-
     pub(super) fn restitution(&self) -> Estimate {
         let value = self.leaving_m_per_s / self.arrival_m_per_s;
         let by_height = self.arrival_std_m_per_s / self.arrival_m_per_s;
-        with_std(
-            value,
-            self.leaving_std().hypot(by_height).hypot(self.drag_std),
-        )
+        // The speed of arrival goes with the root of g, so half of it is left.
+        let by_air = self.drag_std.hypot(0.5 * self.gravity_std);
+        with_std(value, self.leaving_std.hypot(by_height).hypot(by_air))
     }
 
     /// What standards ask for. A rebound goes with the square of its speed.
     pub(super) fn rebound(&self) -> Rebound {
         let (height_m, height_std_m) = self.drop_height;
-        let std = (2.0 * self.leaving_std()).hypot(self.rebound_drag_std);
+        let by_air = self.rebound_drag_std.hypot(self.gravity_std);
+        let std = (2.0 * self.leaving_std).hypot(by_air);
         let by_height = height_std_m / height_m;
         Rebound {
             drop_height_m: height_m,
@@ -170,9 +113,13 @@ impl FirstRebound {
         } = self.restitution();
         Bounce {
             impact_speed_m_per_s: Some(self.arrival_m_per_s),
-            impact_speed_std_m_per_s: Some(self.arrival_std_m_per_s),
+            impact_speed_std_m_per_s: Some(
+                (0.5 * self.gravity_std * self.arrival_m_per_s).hypot(self.arrival_std_m_per_s),
+            ),
             rebound_speed_m_per_s: Some(self.leaving_m_per_s),
-            rebound_speed_std_m_per_s: Some(self.leaving_std_m_per_s),
+            rebound_speed_std_m_per_s: Some(
+                self.leaving_std.hypot(self.gravity_std) * self.leaving_m_per_s,
+            ),
             restitution: Some(e),
             restitution_std: std,
             energy_kept: Some(e * e),

@@ -5,6 +5,7 @@
 mod agreement;
 mod bounce;
 mod candidate;
+mod course;
 mod drop;
 mod few;
 mod findings;

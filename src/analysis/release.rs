@@ -1,7 +1,7 @@
 //! The height of release without a ruler, and gravity with one: by the first flights.
 
 use super::Settings;
-use super::first_rebound::Course;
+use super::course::Course;
 use super::model::{self, Modelled};
 use crate::Error;
 use crate::fit::Estimate;
@@ -26,7 +26,7 @@ const HIGHER: f64 = 4.0;
 /// # Formula
 /// ```text
 /// u = g·(T₁ − C)/2,   v·e(v) = u,   h = v²/2g = g·T₁²/8e²        (with drag those of its flight and fall)
-/// (σ_h/2h)² = (σ_e/e)² + s² + (0.05·ln(v/v₂))² + (σ_T/T₁)²,   g = g₀·H/h by a known height H
+/// (σ_h/2h)² = (σ_e/e)² + s² + (0.05·ln(v/v₂))² + (σ_T/T₁)² + (σ_g/2g)²,   g = g₀·H/h by a known height H
 /// ```
 /// v₂ is the fastest speed that e was measured at, that of the second impact, and s by how much one bounce of balls at large is off
 /// what the others say of it: 0.022. Without mass and diameter s is 0.053, as the flights tell drag badly and e of the fastest
@@ -45,7 +45,7 @@ pub(super) fn release(
         let Some(ends) = course.ends(flight_s, off) else {
             return Ok(None);
         };
-        let speed = arrival(ball, course.leaving_m_per_s(&ends));
+        let speed = arrival(ball, course.leaving_m_per_s(&ends, off));
         speed.map(|v| height_m(&course.law(off)?, v)).transpose()
     };
     let (Some(middle), Some(less), Some(more), Some(ends)) =
@@ -57,7 +57,7 @@ pub(super) fn release(
         .std_s
         .hypot(timed[1].std_s)
         .hypot(course.contact_s.1);
-    let beyond = arrival(ball, course.leaving_m_per_s(&ends))
+    let beyond = arrival(ball, course.leaving_m_per_s(&ends, 0.0))
         .map_or(0.0, |v| (v / course.landing_m_per_s(&ends)).ln());
     let of_e = e
         .estimate
@@ -72,7 +72,8 @@ pub(super) fn release(
         .hypot(of_first)
         .hypot(SPEED_EXPONENT_BEYOND * beyond)
         .hypot((ends.leaving_slope * std_s).hypot(settings.clock_std));
-    let relative = (2.0 * speed_std).hypot(0.5 * (more / less).ln());
+    let by_air = course.gravity_std().hypot(0.5 * (more / less).ln());
+    let relative = (2.0 * speed_std).hypot(by_air);
     let gravity = settings.height_m.map(|given_m| {
         let by_height = settings.height_std_m / given_m;
         Estimate::with_relative_std(

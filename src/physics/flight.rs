@@ -86,6 +86,17 @@ pub fn displaced_mass_fraction(sphere: Sphere, air: Air) -> Result<f64, Error> {
     }
 }
 
+/// What gravity is for a ball in air that displaces the share `β` of its mass: the air carries β of the weight, and half as
+/// much air moves with the ball.
+///
+/// ```text
+/// g_eff = g·(1−β)/(1+β/2)
+/// ```
+#[must_use]
+pub fn gravity_in_air_m_per_s2(gravity_m_per_s2: f64, displaced_mass_fraction: f64) -> f64 {
+    gravity_m_per_s2 * ((1.0 - displaced_mass_fraction) / (1.0 + 0.5 * displaced_mass_fraction))
+}
+
 /// A fall from rest.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -182,11 +193,10 @@ impl FlightLaw {
     /// Drag, buoyancy and added mass of a sphere in air.
     ///
     /// ```text
-    /// g_eff = g·(1−β)/(1+β/2),   v_t² = 2m(1−β)g / (ρ C_d A)
+    /// v_t² = 2m(1−β)g / (ρ C_d A)
     /// ```
     ///
-    /// `β` is [`displaced_mass_fraction`]: the air carries β of the weight, and half as much air moves with the ball.
-    /// From here on `g` means `g_eff`.
+    /// `β` is [`displaced_mass_fraction`], and gravity that of [`gravity_in_air_m_per_s2`]. From here on `g` means `g_eff`.
     ///
     /// # Errors
     /// [`Error::Argument`] for anything that is not positive and finite, or a ball that floats.
@@ -194,7 +204,7 @@ impl FlightLaw {
         let fraction = displaced_mass_fraction(sphere, air)?;
         let in_vacuum = terminal_speed_m_per_s(gravity_m_per_s2, sphere, air)?;
         Self::with_terminal_speed(
-            gravity_m_per_s2 * ((1.0 - fraction) / (1.0 + 0.5 * fraction)),
+            gravity_in_air_m_per_s2(gravity_m_per_s2, fraction),
             in_vacuum * libm::sqrt(1.0 - fraction),
         )
     }

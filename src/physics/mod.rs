@@ -69,7 +69,7 @@ pub use contact::{Leaving, LinearContact, Rebound, ReleaseRule};
 pub use drop::{Bounce, DropSetup, Scatter};
 pub use flight::{
     Air, DRAG_RELATIVE_STD, Fall, FlightLaw, Hop, Rise, Sphere, displaced_mass_fraction,
-    terminal_speed_m_per_s,
+    gravity_in_air_m_per_s2, terminal_speed_m_per_s,
 };
 pub use impacts::{Impact, Impacts};
 pub(crate) use interpolated::InterpolatedContact;

@@ -95,6 +95,28 @@ pub const MUCH_DRAG_PER_S2: Known = Known {
     std: 1.5,
 };
 
+/// β/K of small balls, in s²: the air that a ball displaces, as a share of its mass, for the drag that slows it.
+/// `β/K = 4d/(3·C_d·g)` is 0.30 times the diameter in metres: 0.005 for a marble, 0.012 for a ping-pong ball, 0.013 for a
+/// golf ball.
+pub const DISPLACED_PER_DRAG_S2: Known = Known {
+    value: 0.012,
+    std: 0.008,
+};
+
+/// What each second of contact adds to [`DISPLACED_PER_DRAG_S2`], in s: larger balls are softer. Tennis, 5 ms, has 0.020, a
+/// football, 8 ms, 0.066, a basketball, 12 ms, 0.073.
+pub const DISPLACED_PER_DRAG_AND_CONTACT_S: Known = Known {
+    value: 4.0,
+    std: 4.0,
+};
+
+/// β of balls at large where the flights do not tell their drag: steel 0.0002, golf 0.001, tennis 0.003, ping-pong and a
+/// basketball 0.015, a volleyball 0.023.
+pub const DISPLACED: Known = Known {
+    value: 0.006,
+    std: 0.008,
+};
+
 /// K for the tracker, in s⁻²: half of [`DRAG_PER_S2`], as half of the balls have next to none and it takes all to be of one
 /// kind.
 pub const TRACKED_DRAG_PER_S2: Known = DRAG_PER_S2.times(0.5);

@@ -6,7 +6,7 @@ use super::numbers::decimals;
 use crate::fit::Estimate;
 
 /// The rebound after the first impact, by the flight that follows it. Errors are those of the times, of the height of release,
-/// of a contact and a drag that are not known exactly.
+/// of a contact and a drag that are not known exactly, and of the air that a ball of unknown mass and diameter displaces.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Rebound {

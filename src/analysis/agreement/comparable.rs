@@ -4,16 +4,12 @@ use super::Value;
 use crate::Error;
 use crate::analysis::Settings;
 use crate::analysis::bounce::ends;
-use crate::analysis::model::{self, Modelled};
+use crate::analysis::course::Course;
+use crate::analysis::model::Modelled;
 use crate::fit::flights::Flights;
 use crate::fit::model::Parameter;
 use crate::impact::Impact;
-use crate::physics::FlightLaw;
 use crate::units::real;
-
-/// Relative excess of the first rebound by unknown buoyancy and added mass, for each unit of K (s²). Derived: half of the
-/// 1.5·β that g is less, and `β = 4·K·d/(3·C_d·g)` is 0.014·K for a ball of 45 mm.
-const BUOYANCY_PER_DRAG: f64 = 0.01;
 
 /// A drag that is fitted may stand for an e that falls with speed: what it changes in the first rebound errs by this
 /// share. A tennis ball, which the air hardly slows, has half of its drag from that.
@@ -75,17 +71,17 @@ pub(super) fn first(
     let (Some(ends), Some(e), Some(height_m)) = (ends, e, settings.height_m) else {
         return Ok(None);
     };
-    let law = law(modelled, settings)?;
+    let course = Course::of(modelled, settings)?;
+    let law = course.law(0.0)?;
     let gravity = law.gravity_m_per_s2();
     let leaving = 0.5 * gravity * ends.ln_leaving.exp();
     let value = leaving / law.fall(height_m)?.landing_speed_m_per_s;
     let std = |p: Option<Parameter>| p.and_then(|p| p.std).unwrap_or(0.0);
-    let drag_per_s2 = modelled.drag.map_or(0.0, |p| p.value);
     // d(ln e₁)/dK: what the fall loses, and what the flight after it.
     let by_drag = 0.5 * height_m / gravity + flights.after(0).unwrap_or(0.0).powi(2) / 16.0;
     let unknown = match (settings.mass_kg, settings.diameter_m) {
         (Some(_), Some(_)) => 0.0,
-        _ => drag_per_s2 * BUOYANCY_PER_DRAG.hypot(DRAG_DOUBT * by_drag),
+        _ => (0.5 * course.gravity_std()).hypot(DRAG_DOUBT * by_drag * law.drag_per_s2()),
     };
     let parts = [
         ends.leaving_slope * timed[0].std_s.hypot(timed[1].std_s),
@@ -104,15 +100,4 @@ pub(super) fn first(
         std: value * relative,
     };
     Ok(Some((first, e)))
-}
-
-/// The law of the fall: by mass and diameter, or by the drag of the model.
-fn law(modelled: &Modelled, settings: &Settings) -> Result<FlightLaw, Error> {
-    if let Some(law) = model::law(settings)? {
-        return Ok(law);
-    }
-    match &modelled.ball_model {
-        Some(ball) => Ok(*ball.flight()),
-        None => FlightLaw::without_air(settings.gravity_m_per_s2),
-    }
 }

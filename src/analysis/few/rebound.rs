@@ -146,8 +146,8 @@ fn note(timed: &[Impact], answer: &Answer, settings: &Settings) -> Warning {
             "e is that of the first, by the height and the flight after it"
         }
         Some(Method::FirstRebound) => {
-            "e is that of the first, by the height and the flight after it; the air's drag counts as the ball's unless \
-             mass and diameter are given"
+            "e is that of the first, by the height and the flight after it; the air's drag counts as the ball's, and what \
+             its weight is in air is not known, unless mass and diameter are given"
         }
         Some(_) => {
             "e is one ratio of flights, and its error that of single bounces of balls at large. The height of release would give e of the first"

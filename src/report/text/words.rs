@@ -5,7 +5,7 @@ use crate::fit::model::Budget;
 use crate::fit::model_selection::ALIKE;
 use crate::fit::{Estimate, ModelKind};
 use crate::report::numbers::{odds, short, short_decimals};
-use crate::report::{Ball, Drop, Given, Model, Report, prediction, rebound};
+use crate::report::{Ball, Drop, Given, Model, Report, Settings, prediction, rebound};
 
 /// The lines of a drop, and what a rule book says of it.
 pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[String]) {
@@ -18,7 +18,7 @@ pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[Stri
             air(&drop.model, gravity).or_else(|| speed(&drop.model)),
         ),
         ("contact", contact(drop)),
-        ("rebound", rebounds(drop)),
+        ("rebound", rebounds(drop, &report.settings)),
         ("rest", rest(drop)),
         ("error", drop.budget.as_ref().map(causes)),
     ];
@@ -151,11 +151,15 @@ fn spring(ball: &Ball) -> String {
     format!(", as of a spring of {k} N/mm and a damper of {c} N·s/m")
 }
 
-/// How high the ball rose first, `g·T²/8`, and how long it took to rest. From where it fell is not told: e of the first and
+/// How high the ball rose first, by a height of release or else `g·T²/8`, and how long it took to rest. From where it fell is not told: e of the first and
 /// fastest impact, which nobody heard before, may be another by several hundredths.
-fn rebounds(drop: &Drop) -> Option<String> {
+fn rebounds(drop: &Drop, settings: &Settings) -> Option<String> {
     if let Some(measured) = &drop.first_rebound {
-        return Some(rebound::in_words(measured));
+        let told = rebound::in_words(measured);
+        return Some(match (settings.mass_kg, settings.diameter_m) {
+            (Some(_), Some(_)) => told,
+            _ => format!("{told}: the ball's mass and diameter make the error smaller"),
+        });
     }
     let first = drop.impacts.first()?;
     Some(match first.rebound_height_m? {
@@ -224,17 +228,17 @@ mod tests {
     #[test]
     fn the_first_rebound_is_told_in_a_unit_of_its_size() {
         let mut drop = Drop::empty();
-        assert_eq!(rebounds(&drop), None);
+        assert_eq!(rebounds(&drop, &Settings::default()), None);
         let mut first = Impact::heard(0.7);
         first.rebound_height_m = Some(0.255_22);
         drop.impacts = vec![first.clone()];
         assert_eq!(
-            rebounds(&drop).unwrap(),
+            rebounds(&drop, &Settings::default()).unwrap(),
             "255 mm high after the first bounce heard"
         );
         drop.impacts[0].rebound_height_m = Some(1.253);
         drop.total_time_s = Some(6.0601);
-        let told = rebounds(&drop).unwrap();
+        let told = rebounds(&drop, &Settings::default()).unwrap();
         assert_eq!(told, "1.25 m high after the first bounce heard");
         assert_eq!(rest(&drop).unwrap(), "6.06 s from release to rest");
     }
