@@ -36,7 +36,7 @@ impl FirstRebound {
     /// v = √(2·g·h),   u = g·(T₁ − C)/2   (with drag those of its fall and flight),   e = u/v,   h₁ = u²/2g
     /// (σ/e)² = (σ_T/T₁)² + (σ_h/2h)² + (σ_g/2g)²,   σ_T² = s₁² + s₂² + σ_C²
     /// ```
-    /// g is that in air: without mass and diameter σ_g/g is 3/2 of the error of β, the displaced air's share of the mass.
+    /// g is that in air: without mass and diameter `σ_g/g` is 3/2 of the error of β, the displaced air's share of the mass.
     pub(super) fn of(
         timed: &[Impact],
         flight_s: f64,

@@ -235,8 +235,8 @@ fn warnings(selection: &Selection, first: usize) -> Vec<Warning> {
     }));
     if let Some(other) = selection.alike {
         let message = format!(
-            "the model {other} explains the flights as well as {}: drag and an e that depends on speed cannot be told \
-             apart. The ball's mass and diameter would tell",
+            "the models {} and {other} explain the flights about equally well: the flights do not show how much is due to drag and how \
+             much to a change of e with speed. Give the ball's mass and diameter",
             selection.selected
         );
         warnings.push(Warning::new(WarningCode::ModelsAlike, message));

@@ -64,7 +64,7 @@ fn fitted(times: &[(f64, f64)], number: usize, settings: &Settings) -> Result<Dr
         impacts: times.iter().map(impact).collect(),
         rejected: Vec::new(),
     };
-    let stds = chain.impacts.iter().map(|i| 1e3 * i.std_s);
+    let stds = chain.impacts.iter().map(|i| three_digits(1e3 * i.std_s));
     let (least, most) = stds.fold((f64::INFINITY, 0.0), |(a, b): (f64, f64), s| {
         (a.min(s), b.max(s))
     });
@@ -75,11 +75,16 @@ fn fitted(times: &[(f64, f64)], number: usize, settings: &Settings) -> Result<Dr
     };
     let mut measured = fit(&NO_SOUND, chain, 0, settings)?;
     let message = format!(
-        "the times are given: {}, {errors}",
+        "the impact times are those you gave: {}, {errors}",
         counted(times.len(), "impact"),
     );
     measured.given = Some(Warning::new(WarningCode::ImpactsGiven, message));
     measured.within(no_end(), settings)
+}
+
+/// A positive number with no more than three digits.
+fn three_digits(value: f64) -> f64 {
+    format!("{value:.2e}").parse().unwrap_or(value)
 }
 
 /// The levels of impacts in it are unknown, and it begins before any of them.

@@ -6,7 +6,7 @@ use crate::fit::Estimate;
 use crate::fit::flights::Flights;
 use crate::fit::total_time::{Missing, TotalTime, left_s};
 use crate::impact::{Impact, Status};
-use crate::report::{self, Candidate, Warning, WarningCode, counted};
+use crate::report::{self, Candidate, GIVE_HEIGHT, LISTEN_TO_PART, Warning, WarningCode, counted};
 use crate::sequence::Chain;
 
 /// Fewest impacts without a warning: fewer flights hardly distinguish a trend of e from chance. Convention.
@@ -32,8 +32,9 @@ pub(super) fn of_place(modelled: &Modelled, impacts: &[report::Impact]) -> Optio
         return None;
     }
     let message = format!(
-        "e lies beyond that of each bounce, {least:.4} to {most:.4}: those are by the model {} alone, e is by all models, and with \
-         another contact or drag the same flights have other speeds. The ball's mass and diameter, or its contact time, settle it",
+        "e is outside the values of the single bounces, {least:.4} to {most:.4}: those use the model {} alone, e is averaged over all models, \
+         and with another contact or drag the same flights mean other speeds. To settle this, give the ball's mass and diameter, or its \
+         contact time",
         modelled.model.selected
     );
     Some(Warning::new(WarningCode::BeyondBounces, message))
@@ -74,19 +75,17 @@ impl Sounds {
                 candidate.in_words()
             ),
             (None, 0) => {
-                "nothing in the recording rises sharply out of its noise: move the microphone nearer, or check that the right \
-                 input was recorded"
+                "no sound stands out clearly from the noise: move the microphone nearer, or check that the right input was recorded"
                     .to_owned()
             }
             (None, 1) => "one sharp sound, which is no flight: e takes two impacts and the height of release, or three impacts. Record for longer"
                 .to_owned(),
             (None, sharp @ 2..=3) => format!(
-                "{sharp} sharp sounds, but no two of them are alike and a flight apart as impacts of a ball are. With the \
-                 height of release two impacts are enough, and the more the surer"
+                "{sharp} sharp sounds, but no two of them are alike and a flight apart as impacts of a ball are. {GIVE_HEIGHT}"
             ),
             (None, sharp) => format!(
                 "{sharp} sharp sounds, but no sequence of them shrinks as the flights of a bouncing ball do. If there is a \
-                 drop, listen to the part of the recording that holds it"
+                 drop, {LISTEN_TO_PART}"
             ),
         };
         Warning::new(WarningCode::NoDrop, message)

@@ -21,7 +21,7 @@ use crate::recording::Request;
 use crate::report::html::Content;
 use crate::report::text::Detail;
 use crate::report::times::Decimal;
-use crate::report::{Report, WarningCode, csv, json, text};
+use crate::report::{GIVE_HEIGHT, LISTEN_TO_PART, Report, WarningCode, csv, json, text};
 
 /// Analyze one recording of a bouncing ball.
 ///
@@ -194,9 +194,10 @@ fn advice(report: &Report, code: WarningCode) -> Option<&'static str> {
     let ball_known = settings.mass_kg.is_some() && settings.diameter_m.is_some();
     Some(match code {
         WarningCode::NoDrop if report.candidate.is_some() => "--labels and --impacts",
-        WarningCode::NoDrop if report.rejected.is_empty() => return None,
-        WarningCode::NoDrop if height_known => "--start and --end",
-        WarningCode::NoDrop => "--height, --start and --end",
+        WarningCode::NoDrop if report.why_none().contains(LISTEN_TO_PART) => "--start and --end",
+        WarningCode::NoDrop if report.why_none().contains(GIVE_HEIGHT) && !height_known => {
+            "--height"
+        }
         WarningCode::SeveralTracks => "--track",
         WarningCode::StrayTime => "--labels and --impacts",
         WarningCode::AirDrag if drag_known => return None,

@@ -15,7 +15,7 @@ use crate::Error;
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   bounce-audio compare cold warm --height 1m
-  bounce-audio compare recordings --pattern '{group}-{n}.wav' --height 1m
+  bounce-audio compare recordings --pattern '{group}-{number}.wav' --height 1m
   bounce-audio compare recordings --options balls.csv --report balls.html")]
 #[group(skip)]
 pub(super) struct Arguments {

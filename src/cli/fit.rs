@@ -25,7 +25,8 @@ use crate::report::{Report, csv, json, text};
 /// Fit impact times that were measured otherwise: by a light gate, a video, a stopwatch.
 ///
 /// A line holds a time, or the interval to the next impact, and in a second column which drop it is of; a heading may name
-/// both and the unit. What can be read in two ways is asked about.
+/// both and the unit. Where a line can be read in two ways, fit stops with an error that says
+/// how to make it clear.
 ///
 /// Exit status: 0 fitted, 2 the list could not be read or an argument is wrong; with --rule 3 a drop fails and 4 the verdict
 /// is open.

@@ -28,7 +28,7 @@ pub(super) struct Known {
     /// Time in contact at each impact, if known: 1ms
     #[arg(long, value_parser = contact_time, allow_hyphen_values = true)]
     contact_time: Option<f64>,
-    /// Time that the recording takes over the time that passed: 8 for sound that was slowed down eight times
+    /// Time in the recording divided by real time: 8 for sound that was slowed down eight times
     #[arg(
         long,
         value_name = "FACTOR",

@@ -18,7 +18,8 @@ pub(super) type Given<'a> = (&'a Path, Vec<Vec<Marked>>);
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Labels")]
 pub(super) struct LabelArguments {
-    /// Write the impacts, or of no drop those that come nearest to one, as labels, by the ending for Audacity (txt), Sonic Visualiser (csv) or Praat
+    /// Write the impacts as labels (without a drop, the sounds that come nearest to one); the ending chooses: txt for Audacity, csv
+    /// for Sonic Visualiser, `TextGrid` for Praat
     #[arg(
         long,
         value_name = "OUT.txt|csv|TextGrid",

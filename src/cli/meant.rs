@@ -6,6 +6,7 @@ use std::path::Path;
 use clap::CommandFactory;
 
 use crate::audio;
+use crate::units::Quantity;
 
 /// What to say of arguments that cannot be parsed, if it is clear what their user wants.
 pub(super) fn meant(arguments: &[OsString]) -> Option<String> {
@@ -35,6 +36,7 @@ pub(super) fn meant(arguments: &[OsString]) -> Option<String> {
             "a command is missing. To listen to several recordings: bounce-audio batch {}",
             quoted(&given)
         )),
+        _ if apart(&given).is_some() => apart(&given),
         (true, [_, _, ..]) if first == "analyze" => {
             let recordings: Vec<String> = recordings.into_iter().cloned().collect();
             Some(format!(
@@ -44,6 +46,33 @@ pub(super) fn meant(arguments: &[OsString]) -> Option<String> {
         }
         (true, _) => None,
     }
+}
+
+/// A unit that stands apart from its number, which a shell makes two arguments of: `--height 30,5 cm`.
+fn apart(given: &[String]) -> Option<String> {
+    given.windows(3).find_map(|three| {
+        let [option, number, unit] = three else {
+            return None;
+        };
+        let is_number = number.starts_with(|c: char| c.is_ascii_digit())
+            && number
+                .chars()
+                .all(|c| c.is_ascii_digit() || ".,".contains(c));
+        let is_unit = is_unit(unit) && !Path::new(unit).exists();
+        (option.starts_with("--") && is_number && is_unit).then(|| {
+            let number = number.replace(',', ".");
+            format!("a number and its unit are one word: {option} {number}{unit}")
+        })
+    })
+}
+
+/// Whether this can stand behind a number.
+fn is_unit(text: &str) -> bool {
+    use Quantity::{Acceleration, Length, Mass, Share, Time};
+    let with_number = format!("1{text}");
+    let reads = |quantity: &Quantity| quantity.parse("", &with_number).is_ok();
+    !text.starts_with(|c: char| c.is_ascii_digit() || ":.eE".contains(c))
+        && [Length, Mass, Time, Acceleration, Share].iter().any(reads)
 }
 
 /// A file or folder that is there, or a name that ends as those of recordings do.
@@ -106,5 +135,15 @@ mod tests {
         ] {
             assert_eq!(said(line), None, "{line:?}");
         }
+    }
+
+    #[test]
+    fn a_unit_apart_from_its_number_is_joined_to_it() {
+        let told = said(&["analyze", "a.wav", "--height", "30,5", "cm", "-q"]).unwrap();
+        assert!(told.ends_with("one word: --height 30.5cm"), "{told}");
+        assert_eq!(
+            said(&["analyze", "a.wav", "--height", "30,5cm", "-q"]),
+            None
+        );
     }
 }

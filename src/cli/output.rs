@@ -84,7 +84,7 @@ impl Whole {
         let mut name = place.file_name().unwrap_or_default().to_os_string();
         name.push(format!(".{}.partial", std::process::id()));
         let partial = place.with_file_name(name);
-        let mut file = File::create(&partial)?;
+        let mut file = File::create(&partial).map_err(|e| without_folder(e, &place))?;
         self.rename = Some((partial, place));
         write(&mut file)?;
         if let Some(there) = there {
@@ -131,6 +131,18 @@ impl Drop for Whole {
             // The first error is what counts; that this file may stay behind adds nothing.
             drop(fs::remove_file(partial));
         }
+    }
+}
+
+/// That the folder is what is missing, where it is.
+fn without_folder(error: io::Error, place: &Path) -> io::Error {
+    let folder = place.parent().filter(|f| !f.as_os_str().is_empty());
+    match folder {
+        Some(folder) if error.kind() == io::ErrorKind::NotFound && !folder.exists() => {
+            let said = format!("there is no folder {}", folder.display());
+            io::Error::new(error.kind(), said)
+        }
+        _ => error,
     }
 }
 

@@ -6,7 +6,6 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Arg, Args, Command};
 
-use crate::Error;
 use crate::report::Report;
 use crate::report::rule::Outcome;
 use crate::rules::{RULES, Rule, rule};
@@ -59,12 +58,16 @@ impl TypedValueParser for Rules {
         argument: Option<&Arg>,
         value: &OsStr,
     ) -> Result<Rule, clap::Error> {
-        let limits = value.to_str().filter(|text| text.contains(['=', '@']));
-        let Some(limits) = limits else {
-            return names().parse_ref(command, argument, value);
+        let said = |text: String| {
+            clap::Error::raw(ErrorKind::ValueValidation, text + "\n").with_cmd(command)
         };
-        let said = |e: Error| clap::Error::raw(ErrorKind::ValueValidation, e.to_string() + "\n");
-        Rule::of_limits(limits).map_err(|e| said(e).with_cmd(command))
+        match value.to_str() {
+            Some(limits) if limits.contains(['=', '@']) => {
+                Rule::of_limits(limits).map_err(|e| said(e.to_string()))
+            }
+            Some(name) => rule(name).map_err(|_| said(no_rule(name))),
+            None => names().parse_ref(command, argument, value),
+        }
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
@@ -75,6 +78,32 @@ impl TypedValueParser for Rules {
 fn named() -> impl Iterator<Item = PossibleValue> {
     let named = |rule: &Rule| PossibleValue::new(rule.name).help(rule.in_words());
     RULES.iter().map(named)
+}
+
+/// That there is no such rule, and those whose words it may stand for: `tabletennis` for `table tennis ball`.
+fn no_rule(name: &str) -> String {
+    let letters = |text: &str| -> String {
+        let letters = text.chars().filter(|c| c.is_alphanumeric());
+        letters.flat_map(char::to_lowercase).collect()
+    };
+    let wanted = letters(name);
+    let meant =
+        |rule: &&Rule| letters(&format!("{} {}", rule.name, rule.in_words())).contains(&wanted);
+    let offered = RULES.iter().filter(meant).map(|rule| rule.name);
+    let offered: Vec<&str> = offered.filter(|_| !wanted.is_empty()).collect();
+    if offered.is_empty() {
+        let all: Vec<&str> = RULES.iter().map(|rule| rule.name).collect();
+        format!(
+            "no rule is called '{name}'. There are {}; --help says what they ask for. Limits of your own look like \
+             e=0.75..0.80@254cm,57.7g,67mm",
+            all.join(", ")
+        )
+    } else {
+        format!(
+            "no rule is called '{name}'. Do you mean {}?",
+            offered.join(" or ")
+        )
+    }
 }
 
 fn names() -> impl TypedValueParser<Value = Rule> {

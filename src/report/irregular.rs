@@ -54,10 +54,10 @@ impl Irregular {
             ),
             Kind::Changed => {
                 let other = self.other_restitution.map_or_else(String::new, |e| {
-                    format!("; e of the other part {}", with_error(&e))
+                    format!("; e of the shorter part is {}", with_error(&e))
                 });
                 format!(
-                    "From bounce {at} on e is another: ratio {ratio:.3} after {expected:.3}{other}"
+                    "From bounce {at} on, e is different: ratio {ratio:.3}, and {expected:.3} before{other}"
                 )
             }
         }

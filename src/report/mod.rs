@@ -42,6 +42,7 @@ pub use rejected::{RejectReason, Rejected};
 pub use release::Release;
 pub use settings::Settings;
 pub(crate) use text::{heard, model_name, range, restitution};
+pub(crate) use warning::{GIVE_HEIGHT, LISTEN_TO_PART, doubt_height};
 pub use warning::{Warning, WarningCode};
 pub(crate) use wrap::wrapped_to;
 

@@ -151,8 +151,10 @@ impl RuleReport {
             unit.range(self.allowed_m),
         );
         let mut entries = vec![format!(
-            "{}: {outcome}; from {height}, {allowed} are allowed",
-            self.name
+            "{}: {outcome}; from {height}, {allowed} are allowed to a ball of {:.1} g and {:.1} mm",
+            self.name,
+            1e3 * self.mass_kg,
+            1e3 * self.diameter_m
         )];
         let rebound = judged.rebound_m.as_ref();
         let own = judged.evidence == Evidence::FirstRebound;

@@ -14,6 +14,23 @@ pub struct Warning {
     pub message: String,
 }
 
+/// Advice of which a front end may name the option: to listen to a part, and to give the height.
+pub(crate) const LISTEN_TO_PART: &str = "listen only to its part of the recording";
+pub(crate) const GIVE_HEIGHT: &str =
+    "With the height of release two impacts are enough; more make it surer";
+
+/// Words of what says that the height of release that was given does not fit the first flight.
+const OF_HEIGHT: [WarningCode; 3] = [
+    WarningCode::FirstImpactMissing,
+    WarningCode::HeightTooSmall,
+    WarningCode::WrongHeight,
+];
+
+/// Whether one of these words of warnings says that the height that was given does not fit.
+pub(crate) fn doubt_height<'a>(mut words: impl Iterator<Item = &'a str>) -> bool {
+    words.any(|word| OF_HEIGHT.iter().any(|code| code.word() == word))
+}
+
 impl Warning {
     /// A warning.
     #[must_use]

@@ -79,14 +79,14 @@ fn by_budget(drop: &Drop, shrink: f64) -> String {
     if bounces >= greatest {
         let more = real(drop.bounces) * shrink * shrink;
         format!(
-            "about {more:.0} bounces in place of {}, in several drops",
+            "record about {more:.0} bounces in place of {}, in several drops",
             drop.bounces
         )
     } else if budget.timing >= greatest {
-        "times as much more exact, by a nearer microphone or a quieter room".to_owned()
+        "make the times of the impacts that much more exact, by a nearer microphone or a quieter room".to_owned()
     } else if budget.inputs >= greatest {
-        "mass, diameter and contact time as measured".to_owned()
+        "measure the mass, the diameter and the contact time, and give them".to_owned()
     } else {
-        "a longer or clearer recording, which tells the models apart".to_owned()
+        "record longer or more clearly, which tells the models apart".to_owned()
     }
 }

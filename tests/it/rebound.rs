@@ -434,7 +434,11 @@ fn limits_of_ones_own_judge_as_a_rule_does() {
     }
     for (rule, part) in [
         ("e=0.75..0.79@254cm", "mass and diameter"),
-        ("itf-golf", "possible values"),
+        ("itf-golf", "There are ittf-ball, "),
+        (
+            "tabletennis",
+            "Do you mean ittf-ball or ittf-ball-celluloid or ittf-table?",
+        ),
     ] {
         let output = judged(rule);
         assert_eq!(output.status.code(), Some(2));

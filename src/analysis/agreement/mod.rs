@@ -170,29 +170,28 @@ impl Agreement {
         let (first, e) = (shown(first), shown(e));
         match cause {
             Cause::Drag if self.drag == Drag::Fitted => format!(
-                "equations (25) and (30) give {eq25} and {eq30} where the flights without contact give {ratio}: \
-                 they take no account of the air, which slows the ball, nor of an e that falls with speed. The \
-                 e of the model does"
+                "the plain formulas (25) and (30) give {eq25} and {eq30}, but the flights without contact give {ratio}: the formulas \
+                 leave out the air, which slows the ball, and an e that falls with speed. The fitted e allows for both"
             ),
             Cause::Drag => format!(
-                "equation (30) gives {eq30} and the first rebound {first} where the flights give {ratio}: the air \
+                "the plain formula (30) gives {eq30} and the first rebound {first}, but the flights give {ratio}: the air \
                  slows a light ball, which reads as a lower e. Give the ball's mass and diameter"
             ),
             Cause::HeightTooSmall => format!(
-                "the first rebound gives {first} where the flights give {e}: the ball was dropped from higher than \
+                "the first rebound gives {first}, but the flights give {e}: the ball was dropped from higher than \
                  the height given, or thrown"
             ),
             Cause::HeightTooLarge => format!(
-                "the first rebound gives {first} where the flights give {e}: the ball was dropped from lower than \
+                "the first rebound gives {first}, but the flights give {e}: the ball was dropped from lower than \
                  the height given. Measure from its lowest point; for a light ball give mass and diameter too"
             ),
             Cause::Unheard => format!(
-                "equation (25) gives {eq25} where the flights give {ratio}: it has the ball at rest after the {} \
+                "the plain formula (25) gives {eq25}, but the flights give {ratio}: the formula has the ball at rest after the {} \
                  bounces heard, and more were too faint. Their number is a lower bound; trust the flights",
                 self.bounces
             ),
             Cause::NotKnown => format!(
-                "equations (25) and (30) give {eq25} and {eq30}, more than the flights' {ratio}: drag and unheard \
+                "the plain formulas (25) and (30) give {eq25} and {eq30}, more than the flights' {ratio}: drag and unheard \
                  bounces make them less, so check the height and whether the ball was touched"
             ),
         }

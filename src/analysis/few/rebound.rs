@@ -143,14 +143,19 @@ fn note(timed: &[Impact], answer: &Answer, settings: &Settings) -> Warning {
         Some(Method::FirstRebound)
             if settings.mass_kg.is_some() && settings.diameter_m.is_some() =>
         {
-            "e is that of the first, by the height and the flight after it"
+            "e is that of the first impact, by the height and the flight after it"
         }
         Some(Method::FirstRebound) => {
-            "e is that of the first, by the height and the flight after it; the air's drag counts as the ball's, and what \
-             its weight is in air is not known, unless mass and diameter are given"
+            "e is that of the first impact, by the height and the flight after it. Without the ball's mass and diameter, speed lost to \
+             the air counts as lost in the bounce, and how much lighter the ball is in air is not known"
+        }
+        Some(_) if settings.height_m.is_some() => {
+            "e is the ratio of two flights. Its error is not measured but that of single bounces of many balls. The first flight does not \
+             fit the height"
         }
         Some(_) => {
-            "e is one ratio of flights, and its error that of single bounces of balls at large. The height of release would give e of the first"
+            "e is the ratio of two flights. Its error is not measured but that of single bounces of many balls. The height of release would \
+             give e of the first impact"
         }
         None if settings.height_m.is_some() => {
             "their flight does not fit the height, so there is no e"

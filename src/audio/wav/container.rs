@@ -124,6 +124,14 @@ fn check_magic(stream: &mut impl Read) -> Result<(), Error> {
         _ if got == 0 => Err(unreadable("it is empty")),
         (b"RIFF" | b"RF64" | b"BW64", b"WAVE") => Ok(()),
         (b"RIFX", _) => Err(wav("it is RIFX (big-endian), not RIFF")),
+        _ if magic[..got]
+            .iter()
+            .all(|b| b.is_ascii_graphic() || b.is_ascii_whitespace()) =>
+        {
+            Err(unreadable(format!(
+                "it is text, which `bounce-audio fit` reads if it lists times, and begins like none of {FORMATS}"
+            )))
+        }
         _ => Err(unreadable(format!("it begins like none of {FORMATS}"))),
     }
 }

@@ -48,9 +48,9 @@ use together::{GroupBy, Together};
 
 /// Analyze many recordings: files, and folders with all that is in them.
 ///
-/// One row per drop, in the order of the files, which are those named and the recordings of each folder by name. A
-/// file without a drop or with an error has one row with the reason. At the end stand the mean, whether the drops differ
-/// by more than their errors claim, and which are far from the rest.
+/// One row per drop. Files come in the order in which you name them; those of a folder are sorted by name. A file without a
+/// drop or with an error has one row with the reason. At the end stand the mean, whether the drops differ by more than their
+/// errors explain, and which are far from the rest.
 ///
 /// A terminal gets a table that fits it; the rows go into a pipe, or into the file of -o.
 ///
@@ -62,7 +62,7 @@ use together::{GroupBy, Together};
   bounce-audio batch recordings --pattern 'ball-{height}-{number}.wav'
   bounce-audio batch recordings --options balls.csv --format ndjson
   bounce-audio batch recordings -o drops.csv --resume
-  bounce-audio batch lot --height 30.5cm --rule ittf-ball --pattern '{ball}-{n}.wav'
+  bounce-audio batch lot --height 30.5cm --rule ittf-ball --pattern '{ball}-{number}.wav'
   bounce-audio batch cold warm --height 1m --group folder
   bounce-audio batch recordings --at-speed 1,2,4 --curve e-against-speed.svg
 

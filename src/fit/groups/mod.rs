@@ -127,22 +127,33 @@ pub struct Levelled {
 }
 
 impl Levelled {
-    /// Of one group; none where the speeds are alike or no change is seen beyond its interval.
+    /// Of one group; none where the speeds are alike, no change is seen beyond its interval, or a single drop makes the
+    /// change: without it the others would have another, and it may be another ball.
     #[must_use]
     pub fn of(members: &[Member]) -> Option<Self> {
         let middle = middle(members)?;
         let freedom = members.len().checked_sub(2).filter(|free| *free >= 2)?;
-        let fitted = Fitted::of(members, 1, Some(middle), freedom);
-        let variance = fitted.slope_std().powi(2);
-        let slope = fitted.estimate(fitted.fit.slope, variance, 0.025);
+        let slope = slope(members, middle, freedom);
         let [low, high] = slope.interval95?;
+        let is_of_all = (0..members.len()).all(|left_out| {
+            let others = [&members[..left_out], &members[left_out + 1..]].concat();
+            let middle = self::middle(&others);
+            let others = middle.map(|x0| self::slope(&others, x0, freedom - 1).value);
+            others.is_some_and(|value| low <= value && value <= high)
+        });
         let level = |m: &Member| m.value - slope.value * (m.ln_speed.unwrap_or(middle) - middle);
-        (low > 0.0 || high < 0.0).then(|| Self {
+        ((low > 0.0 || high < 0.0) && is_of_all).then(|| Self {
             at_speed_m_per_s: middle.exp(),
             slope,
             values: members.iter().map(level).collect(),
         })
     }
+}
+
+/// Change of the value for a speed greater by a factor of 2.7, of one group.
+fn slope(members: &[Member], middle: f64, freedom: usize) -> Estimate {
+    let fitted = Fitted::of(members, 1, Some(middle), freedom);
+    fitted.estimate(fitted.fit.slope, fitted.slope_std().powi(2), 0.025)
 }
 
 /// ln of the common speed: the mean, where the drops have different ones.

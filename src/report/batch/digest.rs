@@ -1,7 +1,7 @@
 //! What a summary needs of each recording and each drop.
 
 use super::super::rule::{Judged, Outcome};
-use super::super::{Drop, Report};
+use super::super::{Drop, Report, doubt_height};
 use crate::fit::Estimate;
 use crate::fit::random_effects::Measurement;
 
@@ -50,6 +50,8 @@ pub struct DropDigest {
     pub resilience: Option<Measurement>,
     /// What a rule says of it.
     pub judged: Option<JudgedDigest>,
+    /// Whether the height of release that was given does not fit its first flight.
+    pub is_height_unfit: bool,
 }
 
 /// The verdict on a drop in short.
@@ -80,6 +82,7 @@ impl DropDigest {
             at_speed_m_per_s: None,
             resilience: None,
             judged: None,
+            is_height_unfit: false,
         }
     }
 }
@@ -95,6 +98,7 @@ impl From<&Drop> for DropDigest {
                 .as_ref()
                 .and_then(|r| weighed(r.resilience)),
             judged: None,
+            is_height_unfit: doubt_height(drop.warnings.iter().map(|w| w.code.word())),
         }
     }
 }

@@ -21,7 +21,7 @@ pub fn compared(names: &[String], drops: &[(usize, DropDigest)]) -> Result<Group
     }
     if let Some(few) = (0..names.len()).find(|g| held(*g) < 2) {
         return Err(format!(
-            "Groups: {} has {} with an e and its error. What drops of a group differ by takes two at least, better five",
+            "Groups: {} has {} with an e and its error. Each group needs two at least, better five, to show by how much its drops differ",
             visible(&names[few]),
             super::counted(held(few), "drop")
         ));

@@ -73,9 +73,39 @@ fn of_drops(named: &[(String, DropDigest)]) -> String {
     let weighed = named.iter().filter(|(_, drop)| measurement(drop).is_some());
     let (names, drops): (Vec<String>, Vec<DropDigest>) = weighed.cloned().unzip();
     let (values, levelled) = levelled(&drops);
-    let measured: Vec<(String, Measurement)> = names.into_iter().zip(values).collect();
+    let own = drops.iter().filter_map(measurement);
+    let own = own.map(|(e, _)| (!levelled.is_empty()).then_some(e));
+    let named_values = names.into_iter().zip(values).zip(own);
+    let weighed = |((name, value), own)| Weighed { name, value, own };
+    let measured: Vec<Weighed> = named_values.map(weighed).collect();
     let rebounds = rebound::described(named.iter().map(|(_, drop)| drop));
-    together(&measured) + &levelled + &rebounds
+    together(&measured) + &levelled + &rebounds + &heights(named)
+}
+
+/// One drop among others.
+#[derive(Debug, Clone, PartialEq)]
+struct Weighed {
+    name: String,
+    /// e as it is compared: at the speed of all.
+    value: Measurement,
+    /// e as it was measured, where that is at another speed.
+    own: Option<f64>,
+}
+
+/// Of how many drops the height that was given is none; nothing where it fits all.
+fn heights(named: &[(String, DropDigest)]) -> String {
+    let unfit = named
+        .iter()
+        .filter(|(_, drop)| drop.is_height_unfit)
+        .count();
+    if unfit == 0 {
+        return String::new();
+    }
+    let said = format!(
+        "  height   does not fit {unfit} of {}: it may be wrong, the ball thrown, or the first impact missing",
+        counted(named.len(), "drop")
+    );
+    wrapped(&said, 11) + "\n"
 }
 
 /// e of each drop with its error; where drops from different heights show that e changes with the speed, all at one speed, and
@@ -221,23 +251,30 @@ impl Pooled {
 }
 
 /// The mean of the drops, and that without the outliers if there are any.
-fn together(named: &[(String, Measurement)]) -> String {
-    let measurements: Vec<Measurement> = named.iter().map(|(_, m)| *m).collect();
+fn together(drops: &[Weighed]) -> String {
+    let measurements: Vec<Measurement> = drops.iter().map(|d| d.value).collect();
     let Some(pooled) = RandomEffects::of(&measurements) else {
         return String::new();
     };
     let mut out = described(&pooled);
     let far = outliers(&measurements);
     for (i, OutlyingMeasurement { index, distance }) in far.iter().enumerate() {
-        let (name, (value, std)) = &named[*index];
+        let Weighed { name, value, own } = &drops[*index];
+        let (value, std) = *value;
         let label = match (i, far.len()) {
             (0, 1) => "outlier",
             (0, _) => "outliers",
             _ => "",
         };
+        let as_measured = own.map_or_else(
+            || plus_minus(value, std),
+            |own| {
+                let at_speed = format!("{value:.digits$}", digits = digits_for(std));
+                format!("{}, at the speed of all {at_speed}", plus_minus(own, std))
+            },
+        );
         let told = format!(
-            "e {}, {:.1} standard deviations {} the median",
-            plus_minus(*value, *std),
+            "e {as_measured}, {:.1} standard deviations {} the median",
             distance.abs(),
             if *distance > 0.0 { "above" } else { "below" }
         );
@@ -262,11 +299,11 @@ fn degrees(count: usize) -> String {
 fn described(pooled: &RandomEffects) -> String {
     let digits = digits_for(pooled.spread.min(pooled.claimed));
     let spread = format!(
-        "  spread   {:.digits$} between drops, where their errors claim {:.digits$}",
+        "  spread   {:.digits$} between drops; their errors alone would make it {:.digits$}",
         pooled.spread, pooled.claimed
     );
     let judged = format!(
-        "  compare  they differ {} ({})",
+        "  compare  the drops differ {} ({})",
         differing(pooled),
         figures(pooled)
     );
@@ -282,11 +319,11 @@ fn described(pooled: &RandomEffects) -> String {
 /// Whether the drops differ by more than their errors, and by how much.
 fn differing(pooled: &RandomEffects) -> String {
     if pooled.chance >= RARE {
-        return "no more than they claim".to_owned();
+        return "no more than their errors explain".to_owned();
     }
     let digits = digits_for(pooled.between);
     format!(
-        "more than they claim: ball, height, surface or what was heard makes them differ by {:.digits$} more, one standard \
+        "more than their errors explain: ball, height, surface or what was heard adds a scatter of {:.digits$}, one standard \
          deviation",
         pooled.between
     )

@@ -37,10 +37,10 @@ fn a_batch_says_each_file_then_the_mean_and_who_is_far() {
         "none.wav: only 2 sharp sounds\n",
         "bad.wav: failed: it is empty\n",
         "11 recordings, 10 drops; without a drop: 1; failed: 1\n",
-        "more than they claim",
+        "more than their errors explain",
         "outlier  two\\n.wav drop 2: e 0.9500",
         "Without them:\n  mean e   0.90039 ± 0.00033",
-        "no more than they claim",
+        "no more than their errors explain",
     ] {
         assert!(said.contains(part), "{part} is missing in\n{said}");
     }
@@ -97,27 +97,77 @@ fn drops_without_an_error_are_in_no_mean() {
     assert!(said.ends_with("3 recordings, 3 drops\n"), "{said}");
 }
 
+/// A drop with this e, known to 0.001, at a speed by its logarithm.
+fn at_speed(value: f64, ln_speed: f64) -> DropDigest {
+    let e = Estimate {
+        value,
+        std_error: Some(0.001),
+        interval95: None,
+    };
+    DropDigest {
+        at_speed_m_per_s: Some(ln_speed.exp()),
+        ..DropDigest::new(9, Some(e))
+    }
+}
+
+/// A line through one odd drop at a speed of its own would make it like the others.
 #[test]
-fn drops_from_different_heights_are_compared_at_one_speed() {
+fn a_drop_that_is_odd_is_not_taken_for_a_change_with_the_speed() {
+    let same = |i: u32| at_speed(0.93 + 0.0004 * f64::from(i % 3), 0.01 * f64::from(i % 4));
+    let odd = at_speed(0.876, 0.25);
+    let found = Found::Drops((0..7).map(same).chain([odd]).collect());
+    let said = conclusion(&[Digest::new("many.wav".to_owned(), found)]);
+    assert!(!said.contains("  speed  "), "{said}");
+    assert!(
+        said.contains("outlier  many.wav drop 8: e 0.8760 ±"),
+        "{said}"
+    );
+}
+
+/// e of an outlier is that of the table, and beside it the one that is compared.
+#[test]
+fn an_outlier_at_another_speed_is_told_by_both() {
     let drop = |i: u32| {
         let ln_speed = 0.2 * f64::from(i);
-        let value = 0.9 - 0.02 * ln_speed + 0.0004 * f64::from(i % 3);
-        DropDigest {
-            at_speed_m_per_s: Some(ln_speed.exp()),
-            ..DropDigest::new(
-                9,
-                Some(Estimate {
-                    value,
-                    std_error: Some(0.001),
-                    interval95: None,
-                }),
-            )
-        }
+        let odd = if i == 6 { 0.02 } else { 0.0 };
+        at_speed(
+            0.9 - 0.02 * ln_speed + 0.0004 * f64::from(i % 3) - odd,
+            ln_speed,
+        )
+    };
+    let found = Found::Drops((0..14).map(drop).collect());
+    let said = conclusion(&[Digest::new("many.wav".to_owned(), found)]);
+    assert!(
+        said.contains("many.wav drop 7: e 0.8560 ± 0.0010, at the speed of all 0.85"),
+        "{said}"
+    );
+}
+
+#[test]
+fn heights_that_do_not_fit_are_counted() {
+    let drop = |i: u32| DropDigest {
+        is_height_unfit: i < 3,
+        ..at_speed(0.9, 0.0)
     };
     let found = Found::Drops((0..8).map(drop).collect());
     let said = conclusion(&[Digest::new("many.wav".to_owned(), found)]);
     assert!(
-        said.contains("they differ no more than they claim"),
+        said.contains("  height   does not fit 3 of 8 drops"),
+        "{said}"
+    );
+    assert!(!said.contains("speed"), "{said}");
+}
+
+#[test]
+fn drops_from_different_heights_are_compared_at_one_speed() {
+    let drop = |i: u32| {
+        let ln_speed = 0.2 * f64::from(i);
+        at_speed(0.9 - 0.02 * ln_speed + 0.0004 * f64::from(i % 3), ln_speed)
+    };
+    let found = Found::Drops((0..8).map(drop).collect());
+    let said = conclusion(&[Digest::new("many.wav".to_owned(), found)]);
+    assert!(
+        said.contains("the drops differ no more than their errors explain"),
         "{said}"
     );
     assert!(

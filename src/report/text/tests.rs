@@ -53,7 +53,7 @@ fn the_first_line_is_the_answer() {
     assert_eq!(
         rest,
         [
-            "  range    e is between 0.9280 and 0.9308 with 95 % confidence, at 0.19 m/s",
+            "  range    0.9280 to 0.9308 with 95 % confidence, for impacts at 0.19 m/s",
             "  odds     400 to 1 that this is a drop and not chance",
         ]
     );

@@ -37,15 +37,15 @@ pub(super) fn words(out: &mut String, report: &Report, drop: &Drop, rule: &[Stri
     }
 }
 
-/// `e is between 0.9287 and 0.9307 with 95 % confidence, at 0.19 m/s`.
+/// `0.9287 to 0.9307 with 95 % confidence, for impacts at 0.19 m/s`.
 pub(crate) fn range(drop: &Drop) -> Option<String> {
     let restitution = drop.restitution.as_ref()?;
     let [low, high] = restitution.estimate.interval95?;
     let digits = short_decimals(restitution.estimate.std_error?);
     let at = restitution.at_speed_m_per_s;
-    let at = at.map_or_else(String::new, |v| format!(", at {v:.2} m/s"));
+    let at = at.map_or_else(String::new, |v| format!(", for impacts at {v:.2} m/s"));
     Some(format!(
-        "e is between {low:.digits$} and {high:.digits$} with 95 % confidence{at}"
+        "{low:.digits$} to {high:.digits$} with 95 % confidence{at}"
     ))
 }
 
@@ -105,7 +105,7 @@ fn air(model: &Model, gravity_m_per_s2: f64) -> Option<String> {
 fn speed(model: &Model) -> Option<String> {
     if model.selected == ModelKind::Viscoelastic {
         return Some(
-            "is left out: faster impacts lose more, as between viscoelastic spheres".to_owned(),
+            "is not in the chosen model, by which faster impacts lose more, as between viscoelastic spheres".to_owned(),
         );
     }
     let Estimate {
@@ -114,7 +114,7 @@ fn speed(model: &Model) -> Option<String> {
     let power = std_error.map_or_else(|| format!("{value:.3}"), |std| short(value, std));
     let rises = if value > 0.0 { "falls" } else { "rises" };
     Some(format!(
-        "is left out: e {rises} with the speed, as its power −p with p = {power}"
+        "is not in the chosen model, by which e {rises} with the speed v, as v^(−p) with p = {power}"
     ))
 }
 

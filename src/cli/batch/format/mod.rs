@@ -12,7 +12,7 @@ use crate::report::batch::{Digest, DropDigest, Found, JudgedDigest};
 use crate::report::csv::with_decimal_commas;
 use crate::report::drops::{self, COLUMNS, RowStatus};
 use crate::report::rule::Outcome;
-use crate::report::{Report, json};
+use crate::report::{Report, doubt_height, json};
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Format {
@@ -137,10 +137,13 @@ fn drop_document(drop: &Value) -> Option<DropDigest> {
         drop.pointer(&format!("/first_rebound/resilience/{at}"))?
             .as_f64()
     };
+    let warnings = drop.get("warnings").and_then(Value::as_array);
+    let codes = warnings.into_iter().flatten().filter_map(|w| w.get("code"));
     Some(DropDigest {
         at_speed_m_per_s: number("/at_speed_m_per_s"),
         resilience: share("value").zip(share("std_error")),
         judged: None,
+        is_height_unfit: doubt_height(codes.filter_map(|code| code.as_str())),
         bounces: usize::try_from(drop.get("bounces")?.as_u64()?).ok()?,
         restitution: number("/value").map(|value| Estimate {
             value,
@@ -275,6 +278,7 @@ fn drop_row<'a>(text: impl Fn(&str) -> Option<&'a str>) -> Option<DropDigest> {
         at_speed_m_per_s: number("at_speed_m_per_s"),
         resilience: number("resilience").zip(number("resilience_std")),
         judged: outcome.map(|outcome| JudgedDigest { outcome, rebound_m }),
+        is_height_unfit: doubt_height(text("warnings").unwrap_or_default().split_whitespace()),
         bounces: text("bounces")?.parse().ok()?,
         restitution: number("restitution").map(|value| Estimate {
             value,
