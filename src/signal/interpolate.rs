@@ -2,6 +2,8 @@
 
 use std::sync::LazyLock;
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::units::real;
 
 /// Half-width of the interpolating kernel in samples.
@@ -48,23 +50,41 @@ const BLOCK: usize = 16;
 
 /// `Σ_k weights[k]·samples[i + k]` for every i at which all weights lie within the samples.
 pub(crate) fn correlated<T: Copy + Into<f64>>(samples: &[T], weights: &[f64]) -> Vec<f64> {
-    let count = (samples.len() + 1).saturating_sub(weights.len());
-    if count < BLOCK {
-        return (0..count)
-            .flat_map(|i| block::<T, 1>(&samples[i..], weights))
-            .collect();
+    Arch::new().dispatch(Correlation { samples, weights })
+}
+
+/// A correlation that is compiled for several kinds of vectors. The sums are the same to the last digit with all: products and
+/// sums are rounded one by one, in the same order.
+struct Correlation<'a, T> {
+    samples: &'a [T],
+    weights: &'a [f64],
+}
+
+impl<T: Copy + Into<f64>> WithSimd for Correlation<'_, T> {
+    type Output = Vec<f64>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Vec<f64> {
+        let Self { samples, weights } = self;
+        let count = (samples.len() + 1).saturating_sub(weights.len());
+        if count < BLOCK {
+            return (0..count)
+                .flat_map(|i| block::<T, 1>(&samples[i..], weights))
+                .collect();
+        }
+        let mut out = Vec::with_capacity(count);
+        for start in (0..count).step_by(BLOCK) {
+            // The last block begins where it ends with the last output.
+            let start = start.min(count - BLOCK);
+            let sums: [f64; BLOCK] = block(&samples[start..], weights);
+            out.extend_from_slice(&sums[out.len() - start..]);
+        }
+        out
     }
-    let mut out = Vec::with_capacity(count);
-    for start in (0..count).step_by(BLOCK) {
-        // The last block begins where it ends with the last output.
-        let start = start.min(count - BLOCK);
-        let sums: [f64; BLOCK] = block(&samples[start..], weights);
-        out.extend_from_slice(&sums[out.len() - start..]);
-    }
-    out
 }
 
 /// The first outputs of [`correlated`].
+#[inline(always)]
 fn block<T: Copy + Into<f64>, const N: usize>(samples: &[T], weights: &[f64]) -> [f64; N] {
     let mut sums = [0.0; N];
     for (window, &weight) in samples.windows(N).zip(weights) {
