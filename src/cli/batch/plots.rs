@@ -14,8 +14,8 @@ use crate::cli::picture::{Target, draw_all, draw_sheets};
 use crate::picture::batch::{BatchRow, Order, Ranged, sheet};
 use crate::picture::sheet::sheets_of_times;
 use crate::plot::Figure;
-use crate::report::Report;
 use crate::report::batch::{Digest, Found, Pooled};
+use crate::report::{Report, short};
 
 /// What the rows of the picture are sorted by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -136,5 +136,14 @@ pub(super) fn all(digests: &[Digest], order: Order) -> Figure {
         }
     }
     let mean = pooled.mean.map(|m| (m.mean, m.mean_std));
-    sheet(&rows, mean, order)
+    let outliers = match pooled.outliers.len() {
+        1 => "outlier",
+        _ => "outliers",
+    };
+    let rest = pooled.without_outliers;
+    Figure {
+        subtitle: rest
+            .map(|m| format!("without the {outliers}: e = {}", short(m.mean, m.mean_std))),
+        ..sheet(&rows, mean, order)
+    }
 }

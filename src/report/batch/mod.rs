@@ -79,7 +79,8 @@ fn of_drops(named: &[(String, DropDigest)]) -> String {
     let weighed = |((name, value), own)| Weighed { name, value, own };
     let measured: Vec<Weighed> = named_values.map(weighed).collect();
     let rebounds = rebound::described(named.iter().map(|(_, drop)| drop));
-    together(&measured) + &levelled + &rebounds + &heights(named)
+    let (all, without_outliers) = together(&measured);
+    all + &levelled + &rebounds + &heights(named) + &without_outliers
 }
 
 /// One drop among others.
@@ -229,6 +230,8 @@ pub struct Pooled {
     pub mean: Option<RandomEffects>,
     /// The outliers among all drops in their order, by their number from 0.
     pub outliers: Vec<usize>,
+    /// The mean without them, where there are any and two drops or more are left.
+    pub without_outliers: Option<RandomEffects>,
 }
 
 impl Pooled {
@@ -242,19 +245,30 @@ impl Pooled {
         let weighed = drops.enumerate().filter(|(_, d)| measurement(d).is_some());
         let (numbers, drops): (Vec<usize>, Vec<DropDigest>) = weighed.unzip();
         let (measurements, _) = levelled(&drops);
-        let far = outliers(&measurements).into_iter();
+        let far = outliers(&measurements);
         Self {
             mean: RandomEffects::of(&measurements),
-            outliers: far.map(|o| numbers[o.index]).collect(),
+            without_outliers: without(&measurements, &far),
+            outliers: far.into_iter().map(|o| numbers[o.index]).collect(),
         }
     }
 }
 
+/// The mean without the outliers; none where there are none, or fewer than two drops are left.
+fn without(measurements: &[Measurement], far: &[OutlyingMeasurement]) -> Option<RandomEffects> {
+    let kept = measurements.iter().enumerate();
+    let kept: Vec<Measurement> = kept
+        .filter(|(i, _)| far.iter().all(|o| o.index != *i))
+        .map(|(_, m)| *m)
+        .collect();
+    RandomEffects::of(&kept).filter(|_| !far.is_empty())
+}
+
 /// The mean of the drops, and that without the outliers if there are any.
-fn together(drops: &[Weighed]) -> String {
+fn together(drops: &[Weighed]) -> (String, String) {
     let measurements: Vec<Measurement> = drops.iter().map(|d| d.value).collect();
     let Some(pooled) = RandomEffects::of(&measurements) else {
-        return String::new();
+        return Default::default();
     };
     let mut out = described(&pooled);
     let far = outliers(&measurements);
@@ -280,15 +294,13 @@ fn together(drops: &[Weighed]) -> String {
         );
         out += &line_of(&format!("  {label:<8} "), name, &told, 11);
     }
-    let kept = measurements.iter().enumerate();
-    let kept: Vec<Measurement> = kept
-        .filter(|(i, _)| far.iter().all(|o| o.index != *i))
-        .map(|(_, m)| *m)
-        .collect();
-    match RandomEffects::of(&kept) {
-        Some(rest) if !far.is_empty() => out + "Without them:\n" + &described(&rest),
-        _ => out,
-    }
+    let rest = without(&measurements, &far);
+    (
+        out,
+        rest.as_ref().map_or_else(String::new, |rest| {
+            "Without them:\n".to_owned() + &described(rest)
+        }),
+    )
 }
 
 fn degrees(count: usize) -> String {

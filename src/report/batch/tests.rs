@@ -116,7 +116,15 @@ fn a_drop_that_is_odd_is_not_taken_for_a_change_with_the_speed() {
     let same = |i: u32| at_speed(0.93 + 0.0004 * f64::from(i % 3), 0.01 * f64::from(i % 4));
     let odd = at_speed(0.876, 0.25);
     let found = Found::Drops((0..7).map(same).chain([odd]).collect());
-    let said = conclusion(&[Digest::new("many.wav".to_owned(), found)]);
+    let digests = [Digest::new("many.wav".to_owned(), found)];
+    let said = conclusion(&digests);
+    let pooled = Pooled::of(&digests);
+    assert_eq!(pooled.outliers, [7]);
+    let rest = pooled.without_outliers.unwrap();
+    assert!(
+        rest.count == 7 && (rest.mean - 0.9304).abs() < 1e-4,
+        "{rest:?}"
+    );
     assert!(!said.contains("  speed  "), "{said}");
     assert!(
         said.contains("outlier  many.wav drop 8: e 0.8760 ±"),
