@@ -135,7 +135,7 @@ impl Drop for Whole {
 }
 
 /// That the folder is what is missing, where it is.
-fn without_folder(error: io::Error, place: &Path) -> io::Error {
+pub(super) fn without_folder(error: io::Error, place: &Path) -> io::Error {
     let folder = place.parent().filter(|f| !f.as_os_str().is_empty());
     match folder {
         Some(folder) if error.kind() == io::ErrorKind::NotFound && !folder.exists() => {

@@ -112,7 +112,7 @@ fn make_one(arguments: &Arguments) -> Result<String, Error> {
     let truth_path = write(path, &made)?;
     let impacts: usize = made.truth.drops.iter().map(|d| d.impacts_s.len()).sum();
     Ok(format!(
-        "{}: {:.1} s, drops: {}, impacts: {impacts}, not all of which can be heard\n{}: their true times\n",
+        "{}: {:.1} s, drops: {}, impacts: {impacts}, heard or not\n{}: their true times\n",
         path.display(),
         real(made.samples.len()) / f64::from(made.truth.sample_rate_hz),
         made.truth.drops.len(),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::format::{Format, ReadBack};
 use crate::Error;
-use crate::cli::output::check_replaceable;
+use crate::cli::output::{check_replaceable, without_folder};
 
 /// The file that rows are added to.
 #[derive(Debug)]
@@ -74,7 +74,7 @@ impl RowsFile {
             ErrorKind::AlreadyExists => Error::refused(
                 "it was left by an interrupted run: --resume goes on with it, --force starts again",
             ),
-            _ => e.into(),
+            _ => without_folder(e, path).into(),
         });
         let partial = open.map_err(|e| e.in_file(&partial_path))?;
         // Where files cannot be locked, nobody is kept out.

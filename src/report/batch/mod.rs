@@ -298,7 +298,8 @@ fn together(drops: &[Weighed]) -> (String, String) {
     (
         out,
         rest.as_ref().map_or_else(String::new, |rest| {
-            "Without them:\n".to_owned() + &described(rest)
+            let them = if far.len() == 1 { "it" } else { "them" };
+            format!("Without {them}:\n{}", described(rest))
         }),
     )
 }

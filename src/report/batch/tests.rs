@@ -39,7 +39,7 @@ fn a_batch_says_each_file_then_the_mean_and_who_is_far() {
         "11 recordings, 10 drops; without a drop: 1; failed: 1\n",
         "more than their errors explain",
         "outlier  two\\n.wav drop 2: e 0.9500",
-        "Without them:\n  mean e   0.90039 ± 0.00033",
+        "Without it:\n  mean e   0.90039 ± 0.00033",
         "no more than their errors explain",
     ] {
         assert!(said.contains(part), "{part} is missing in\n{said}");
