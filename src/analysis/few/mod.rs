@@ -9,13 +9,14 @@ pub(super) use rebound::{answer, complete};
 use super::Settings;
 use super::drop::{self, Measured};
 use super::stretch::Stretch;
+use super::tail;
 use crate::Error;
 use crate::detect::Detector;
 use crate::event::Event;
 use crate::impact::{Impact, Status};
 use crate::physics::BounceSeries;
-use crate::sequence::Chain;
 use crate::sequence::few::{FewImpacts, few_impacts};
+use crate::sequence::{self, Chain};
 use crate::units::real;
 
 /// Two or three impacts that stand out in a scene.
@@ -62,9 +63,15 @@ pub(super) fn heard(
     let Some(found) = few_impacts(before, duration_s, longest_s) else {
         return Ok(None);
     };
+    if let Some(chain) = longer(&found, events) {
+        let followed = tail::follow(stretch, chain);
+        let mut measured = drop::measure(stretch, followed, channel, settings)?;
+        measured.evidence_nats = measured.evidence_nats.max(found.nats);
+        return Ok(Some(Heard { found, measured }));
+    }
     let nats = found.nats / real(found.impacts.len());
     let impact = |sound: &_| {
-        let &crate::sequence::few::ClearSound {
+        let &sequence::few::ClearSound {
             time_s, jitter_s, ..
         } = sound;
         Impact {
@@ -90,6 +97,28 @@ pub(super) fn heard(
     let measured = drop::fit(stretch, chain, channel, settings)?;
     Ok(Some(Heard { found, measured }))
 }
+
+/// Three impacts that are a drop, with those that follow as its flights would have it: a chain of its own would need more
+/// evidence, as any sounds can begin one. None where nothing follows, or another chain would hold them better.
+fn longer(found: &FewImpacts, events: &[Event]) -> Option<Chain> {
+    if !found.are_enough() {
+        return None;
+    }
+    let known: Vec<(f64, f64)> = found
+        .impacts
+        .iter()
+        .map(|i| (i.time_s, i.jitter_s.max(LEAST_JITTER_S)))
+        .collect();
+    let chain = sequence::follow_again(events, &known)?;
+    let is_in = |&(time_s, off_s): &(f64, f64)| {
+        let mut heard = chain.impacts.iter().filter(|i| i.is_heard());
+        heard.any(|i| (i.time_s - time_s).abs() <= off_s)
+    };
+    (chain.heard() > known.len() && known.iter().all(is_in)).then_some(chain)
+}
+
+/// An event may be this far from the sound that stands out, in seconds.
+const LEAST_JITTER_S: f64 = 3e-3;
 
 /// The first flight of a ball that loses nothing, from the height as far as it is known: `2√(2h/g)`.
 fn longest_flight_s(settings: &Settings) -> Result<Option<f64>, Error> {

@@ -2,6 +2,7 @@
 
 use super::super::model::Modelled;
 use super::*;
+use crate::event::Profile;
 use crate::physics::priors::{DISPLACED, UNKNOWN_CONTACT_STD_S};
 use crate::physics::{Air, FlightLaw, Sphere};
 use crate::report::{Restitution, WarningCode};
@@ -60,4 +61,47 @@ fn a_flight_longer_than_the_height_allows_gives_a_warning_and_no_e() {
         [WarningCode::HeightTooSmall, WarningCode::FewBounces]
     );
     assert!(answer.modelled.restitution.is_none());
+}
+
+/// Sounds at these times, as events and as those that stand out.
+fn sounds(times_s: &[f64]) -> (Vec<Event>, Vec<sequence::few::ClearSound>) {
+    let event = |&time_s: &f64| Event {
+        time_s,
+        jitter_s: 5e-4,
+        strength: 30.0,
+        loudness: 3.0,
+        profile: Profile::default(),
+    };
+    let clear = |&time_s: &f64| sequence::few::ClearSound {
+        time_s,
+        jitter_s: 5e-4,
+        level: -1.0,
+        is_short: true,
+        profile: Profile::default(),
+    };
+    let events = times_s.iter().map(event).collect();
+    (events, times_s.iter().map(clear).collect())
+}
+
+/// Flights of 0.4 s and four fifths of each before, among a sound that is none.
+const SHRINKING_S: [f64; 7] = [1.0, 1.4, 1.72, 1.976, 2.1, 2.1808, 2.34464];
+
+#[test]
+fn impacts_that_follow_three_are_heard_with_them() {
+    let (events, clear) = sounds(&SHRINKING_S);
+    let three = |nats: f64| FewImpacts {
+        impacts: clear[..3].to_vec(),
+        nats,
+        rival_nats: f64::NEG_INFINITY,
+    };
+    let chain = longer(&three(8.0), &events).unwrap();
+    let found: Vec<f64> = chain.impacts.iter().map(|i| i.time_s).collect();
+    assert_eq!(found, [1.0, 1.4, 1.72, 1.976, 2.1808, 2.34464]);
+    assert!(longer(&three(5.0), &events).is_none(), "they are no drop");
+    assert!(longer(&three(8.0), &events[..3]).is_none(), "none follows");
+    let two = FewImpacts {
+        impacts: clear[..2].to_vec(),
+        ..three(8.0)
+    };
+    assert!(longer(&two, &events).is_none(), "two have no ratio");
 }
