@@ -41,7 +41,7 @@ static LONG_VERSION: LazyLock<String> = LazyLock::new(|| {
         "{}{}\nreads     {FORMATS}\n{}{}",
         env!("CARGO_PKG_VERSION"),
         commit.unwrap_or_default(),
-        "features  audio, plots, lab, cli",
+        "features  audio, opus, plots, lab, cli",
         if cfg!(feature = "internals") {
             ", internals"
         } else {

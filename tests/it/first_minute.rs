@@ -138,7 +138,7 @@ fn the_command_that_was_meant_is_offered() {
 fn the_version_tells_what_is_built_in() {
     let version = said(&["--version"]);
     assert!(version.starts_with(concat!("bounce-audio ", env!("CARGO_PKG_VERSION"), "\n")));
-    assert!(version.contains("FLAC") && version.contains("features  audio, plots, lab, cli"));
+    assert!(version.contains("FLAC") && version.contains("features  audio, opus, plots, lab, cli"));
     assert_eq!(said(&["-V"]).lines().count(), 1);
 }
 
