@@ -48,7 +48,7 @@ impl Course {
         let of_flights = fitted(modelled.drag);
         Ok(Self {
             contact_s: contact.unwrap_or((0.0, UNKNOWN_CONTACT_STD_S)),
-            gravity_m_per_s2: law.map_or(settings.gravity_m_per_s2, |law| law.gravity_m_per_s2()),
+            gravity_m_per_s2: model::gravity_m_per_s2(settings)?,
             drag_per_s2: of_law.or(of_flights).unwrap_or((0.0, 0.0)),
             displaced: match (law, of_flights) {
                 (Some(_), _) => Displaced::Given,

@@ -189,8 +189,7 @@ pub(super) fn fit(
     let mut warnings = warnings::of_chain(stretch, &chain);
     warnings.extend(warnings::of_contact(settings.contact_time_s, timed));
     let ball = modelled.ball_model.as_ref();
-    let law = model::law(settings)?;
-    let gravity = law.map_or(settings.gravity_m_per_s2, |law| law.gravity_m_per_s2());
+    let gravity = model::gravity_m_per_s2(settings)?;
     let impacts = impacts(stretch, timed, ball, gravity);
     warnings.extend(warnings::of_place(&modelled, &impacts));
     Ok(Measured {

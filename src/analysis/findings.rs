@@ -4,7 +4,7 @@ use super::Settings;
 use super::candidate::Candidate;
 use super::drop::{Extent, Measured};
 use super::few;
-use super::scene::{SceneResult, clearest};
+use super::scene::{SceneResult, clearest, is_known};
 use super::warnings::{self, Sounds};
 use crate::Error;
 use crate::report::{self, Analysis, Rejected};
@@ -123,12 +123,18 @@ impl Findings {
         if !self.drops.is_empty() {
             return None;
         }
-        let few = self.few.take();
-        if few.as_ref().is_some_and(few::Heard::is_enough) {
-            self.drops.extend(few.map(|few| few.measured));
-            return None;
-        }
-        let few = few.map(Candidate::of_few);
+        let few = match self.few.take() {
+            Some(few) if few.is_enough() => {
+                let impacts = few.measured.impacts.iter().map(|i| i.time_s);
+                let impacts_s: Vec<f64> = impacts.collect();
+                // No chain had them, so they were put down as rejected.
+                self.rejected
+                    .retain(|(_, r)| !is_known(r.time_s, &impacts_s));
+                self.drops.push(few.measured);
+                return None;
+            }
+            few => few.map(Candidate::of_few),
+        };
         nearer(self.candidate.take(), few)?.reported()
     }
 

@@ -33,6 +33,12 @@ pub(super) fn inputs(settings: &Settings) -> Result<Inputs, Error> {
     })
 }
 
+/// Gravity as the ball feels it: in air, where its mass and diameter are known.
+pub(super) fn gravity_m_per_s2(settings: &Settings) -> Result<f64, Error> {
+    let law = law(settings)?;
+    Ok(law.map_or(settings.gravity_m_per_s2, |law| law.gravity_m_per_s2()))
+}
+
 /// The flight of a ball whose mass and diameter are known.
 pub(super) fn law(settings: &Settings) -> Result<Option<FlightLaw>, Error> {
     let (Some(mass_kg), Some(diameter_m)) = (settings.mass_kg, settings.diameter_m) else {

@@ -253,7 +253,7 @@ fn explained_until_s(drop: usize, spans_s: &[(f64, f64)], reported_s: &[f64]) ->
 /// Greatest distance of an impact from one reported already that is the same, in seconds.
 const SAME_S: f64 = 2e-3;
 
-fn is_known(time_s: f64, reported_s: &[f64]) -> bool {
+pub(super) fn is_known(time_s: f64, reported_s: &[f64]) -> bool {
     let at = reported_s.partition_point(|&t| t < time_s - SAME_S);
     reported_s.get(at).is_some_and(|&t| t <= time_s + SAME_S)
 }

@@ -58,6 +58,17 @@ fn two_impacts_and_a_height_give_e_of_the_first_and_the_rebound() {
     let off = first["rebound_height_m"].as_f64().unwrap() - 0.78 * 0.78;
     let std = first["rebound_height_std_m"].as_f64().unwrap();
     assert!(off.abs() < 3.0 * std && std < 0.01, "{off} {std}");
+    // What is an impact is not rejected too.
+    let time_s = |of: &Value| of["time_s"].as_f64().unwrap();
+    let impacts: Vec<f64> = drop["impacts"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(time_s)
+        .collect();
+    let rejected = document["rejected"].as_array().unwrap().iter().map(time_s);
+    let mut both = rejected.filter(|t| impacts.iter().any(|i| (i - t).abs() < 2e-3));
+    assert_eq!(both.next(), None);
 }
 
 #[test]

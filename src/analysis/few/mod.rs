@@ -63,6 +63,8 @@ pub(super) fn heard(
     let Some(found) = few_impacts(before, duration_s, longest_s) else {
         return Ok(None);
     };
+    // What sounds after is for the next scene to tell, and its drops.
+    let events = &events[..events.partition_point(|e| e.time_s < until_s)];
     if let Some(chain) = longer(&found, events) {
         let followed = tail::follow(stretch, chain);
         let mut measured = drop::measure(stretch, followed, channel, settings)?;
