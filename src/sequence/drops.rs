@@ -31,7 +31,7 @@ pub struct Candidate {
 }
 
 /// Evidence a chain needs to be a drop, in nats: chance rarely makes one (none in 24 recordings without a drop).
-const LEAST_EVIDENCE: f64 = 12.0;
+pub(super) const LEAST_EVIDENCE: f64 = 12.0;
 /// Fewest impacts heard that make a drop: three flights, whose two ratios agree.
 const FEWEST: usize = 4;
 /// The flights shrink: nats by which a ball explains them better than a hand or a clock.

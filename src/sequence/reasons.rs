@@ -37,8 +37,11 @@ pub struct NonImpact {
 
 /// An echo's delay is constant to this many seconds.
 const DELAY_TOLERANCE_S: f64 = 0.6e-3;
-/// Longest delay that is looked for: 17 m to a wall.
-const LONGEST_DELAY_S: f64 = 0.1;
+/// … and that of a whole chain to this share of a flight: what comes back from many places begins now here, now there. Another
+/// ball's delays walk through whole flights.
+const DELAY_TOLERANCE: f64 = 0.01;
+/// Longest delay that is looked for: 34 m to the wall of a sports hall.
+const LONGEST_DELAY_S: f64 = 0.2;
 /// An echo follows at least this share of the impacts …
 const ECHO_SHARE: f64 = 0.3;
 /// … and more of them than events without order would by so many standard deviations.
@@ -51,28 +54,55 @@ pub const NAMED: usize = 50;
 const NOTABLE_SHARE: f64 = 0.3;
 
 /// Whether a chain is the echo of another, or the same again: more than half of its impacts belong to the sound of one of the
-/// other's, or follow one at the same delay.
+/// other's, or lie at the same delay from one. The other has more evidence, and may yet be the one that came back from a wall:
+/// then the chain is ahead of it.
 #[must_use]
 pub fn is_echo_of(chain: &Chain, direct: &Chain) -> bool {
     let delays = chain.impacts.iter();
-    let delays: Vec<f64> = delays
-        .filter_map(|i| delay_after(direct, i.time_s))
-        .collect();
-    let Some(median) = upper_median(delays.iter().copied()) else {
-        return false;
+    let delays: Vec<Delay> = delays.map(|i| Delay::of(direct, i.time_s)).collect();
+    let are_alike = |side: fn(&Delay) -> f64| {
+        let usual = upper_median(delays.iter().map(side)).unwrap_or(f64::INFINITY);
+        let same = |d: &&Delay| d.is_near() || (side(d) - usual).abs() < d.tolerance_s;
+        usual < LONGEST_DELAY_S && 2 * delays.iter().filter(same).count() > chain.impacts.len()
     };
-    let same = |delay: &&f64| (**delay - median).abs() < DELAY_TOLERANCE_S || delay.abs() < NEAR_S;
-    median < LONGEST_DELAY_S && 2 * delays.iter().filter(same).count() > chain.impacts.len()
+    are_alike(|d| d.after_s) || are_alike(|d| d.ahead_s)
 }
 
-/// Seconds from the impact of a chain before a time, or to one that is nearer and just after it.
-fn delay_after(chain: &Chain, time_s: f64) -> Option<f64> {
-    let impacts = &chain.impacts;
-    let after = impacts.partition_point(|i| i.time_s <= time_s);
-    let before = after.checked_sub(1).map(|i| time_s - impacts[i].time_s);
-    let ahead = impacts.get(after).map(|i| time_s - i.time_s);
-    let just_after = ahead.filter(|ahead| -ahead < before.unwrap_or(f64::INFINITY).min(NEAR_S));
-    just_after.or(before)
+/// Where a time lies among the impacts of a chain.
+struct Delay {
+    /// Seconds since the impact before it and until the one after it; infinite where there is none.
+    after_s: f64,
+    ahead_s: f64,
+    /// How far the delay of an echo may be from that of others here.
+    tolerance_s: f64,
+}
+
+impl Delay {
+    fn of(chain: &Chain, time_s: f64) -> Self {
+        let impacts = &chain.impacts;
+        let after = impacts.partition_point(|i| i.time_s <= time_s);
+        let before = after.checked_sub(1).map(|i| &impacts[i]);
+        let after_s = before.map_or(f64::INFINITY, |i| time_s - i.time_s);
+        let ahead_s = impacts
+            .get(after)
+            .map_or(f64::INFINITY, |i| i.time_s - time_s);
+        let flight_s = after_s + ahead_s;
+        let of_flight_s = if flight_s.is_finite() {
+            DELAY_TOLERANCE * flight_s
+        } else {
+            0.0
+        };
+        Self {
+            after_s,
+            ahead_s,
+            tolerance_s: of_flight_s.max(DELAY_TOLERANCE_S),
+        }
+    }
+
+    /// Whether it belongs to the sound of one of the impacts.
+    fn is_near(&self) -> bool {
+        self.after_s.min(self.ahead_s) < NEAR_S
+    }
 }
 
 /// Which events a chain explains, in order: its impacts and their echoes.
@@ -233,7 +263,15 @@ mod tests {
         let echo = ball(1.0, |_| 0.018);
         let goes_over = ball(1.0, |n| if n < 13 { 0.018 } else { 1e-4 });
         assert!(is_echo_of(&echo, &direct) && is_echo_of(&goes_over, &direct));
-        assert!(!is_echo_of(&direct, &echo));
+    }
+
+    #[test]
+    fn an_echo_begins_now_here_now_there_and_may_be_heard_better_than_what_came_before_it() {
+        let direct = ball(1.0, |_| 0.0);
+        let wanders = ball(1.0, |n| 0.007 + if n % 3 == 0 { 9e-4 } else { -4e-4 });
+        assert!(is_echo_of(&wanders, &direct));
+        let ahead = ball(1.0, |_| -0.0102);
+        assert!(is_echo_of(&ahead, &direct) && is_echo_of(&direct, &ahead));
     }
 
     #[test]
