@@ -9,21 +9,29 @@ use super::track::{Scene, Step, follow};
 /// A chain as it was followed, the events that it explains, in order, its impacts and their echoes, and its evidence where those are
 /// no clutter.
 #[derive(Debug)]
-struct Version {
+struct Version<'a> {
     steps: Vec<Step>,
     associated: Vec<usize>,
+    /// The rates of clutter without those.
+    rates: Rates<'a>,
     evidence: f64,
 }
 
-impl Version {
-    fn of(scene: &Scene<'_>, steps: Vec<Step>) -> Self {
+impl<'a> Version<'a> {
+    fn of(scene: &'a Scene<'_>, steps: Vec<Step>) -> Self {
         let associated = reasons::associated(scene, &Track::new(steps.clone()));
-        let own = judged(steps.clone(), &mut scene.rates_without(&associated));
+        let mut rates = scene.rates_without(&associated);
         Self {
-            evidence: evidence(&own),
+            evidence: evidence(&judged(steps.clone(), &mut rates)),
             steps,
             associated,
+            rates,
         }
+    }
+
+    /// Its steps as they stand among its own clutter.
+    fn track(mut self) -> Track {
+        Track::new(judged(self.steps, &mut self.rates))
     }
 }
 
@@ -35,7 +43,7 @@ impl Version {
 /// before has more evidence by as much as a drop needs, under one clutter too, and is taken.
 #[must_use]
 pub(super) fn reassociated(scene: &Scene<'_>, steps: Vec<Step>) -> Track {
-    let mut versions: Vec<Version> = Vec::new();
+    let mut versions: Vec<Version<'_>> = Vec::new();
     let mut next = Version::of(scene, steps);
     let first = loop {
         let seen = versions.iter().position(|v| is_same(&v.steps, &next.steps));
@@ -47,31 +55,31 @@ pub(super) fn reassociated(scene: &Scene<'_>, steps: Vec<Step>) -> Track {
         let Some(seed) = best_seed(&next.steps) else {
             return Track::new(next.steps);
         };
-        let mut rates = scene.rates_without(&next.associated);
-        let steps = follow(scene, &mut rates, seed);
+        let steps = follow(scene, &mut next.rates, seed);
         versions.push(next);
         next = Version::of(scene, steps);
     };
     let last = Version::of(scene, best(scene, &versions.split_off(first)));
-    taken(scene, last, versions)
-}
-
-/// The last version, or that of those left before it with the most evidence where it has so much more.
-fn taken(scene: &Scene<'_>, last: Version, left: Vec<Version>) -> Track {
-    let best_left = left
+    let left = versions
         .into_iter()
         .max_by(|a, b| a.evidence.total_cmp(&b.evidence));
-    let Some(left) = best_left else {
-        return Track::new(best(scene, &[last]));
+    taken(scene, last, left)
+}
+
+/// The last version, or one that was left before it where that has so much more evidence, among its own clutter and under one.
+fn taken(scene: &Scene<'_>, last: Version<'_>, left: Option<Version<'_>>) -> Track {
+    let Some(left) = left.filter(|left| left.evidence > last.evidence + LEAST_EVIDENCE) else {
+        return last.track();
     };
     let pair = [last, left];
-    let evidences: Vec<f64> = under_one_clutter(scene, &pair)
-        .iter()
-        .map(|steps| evidence(steps))
-        .collect();
-    let is_left_better = evidences[1] > evidences[0] + LEAST_EVIDENCE;
+    let evidences = under_one_clutter(scene, &pair).map(|steps| evidence(&steps));
+    let evidences: Vec<f64> = evidences.collect();
     let [last, left] = pair;
-    Track::new(best(scene, &[if is_left_better { left } else { last }]))
+    if evidences[1] > evidences[0] + LEAST_EVIDENCE {
+        left.track()
+    } else {
+        last.track()
+    }
 }
 
 /// Whether the same events are the impacts of both.
@@ -81,22 +89,24 @@ fn is_same(a: &[Step], b: &[Step]) -> bool {
 }
 
 /// The steps of the version with the most evidence under one clutter.
-fn best(scene: &Scene<'_>, versions: &[Version]) -> Vec<Step> {
-    let judged = under_one_clutter(scene, versions).into_iter();
-    judged
+fn best(scene: &Scene<'_>, versions: &[Version<'_>]) -> Vec<Step> {
+    under_one_clutter(scene, versions)
         .max_by(|a, b| evidence(a).total_cmp(&evidence(b)))
         .unwrap_or_default()
 }
 
 /// The steps of versions under the clutter that none of them explains.
-fn under_one_clutter(scene: &Scene<'_>, versions: &[Version]) -> Vec<Vec<Step>> {
+fn under_one_clutter<'v>(
+    scene: &'v Scene<'_>,
+    versions: &'v [Version<'_>],
+) -> impl Iterator<Item = Vec<Step>> + 'v {
     let associated = versions.iter().flat_map(|v| v.associated.iter().copied());
     let mut associated: Vec<usize> = associated.collect();
     associated.sort_unstable();
     associated.dedup();
     let mut rates = scene.rates_without(&associated);
-    let judged = versions.iter().map(|v| judged(v.steps.clone(), &mut rates));
-    judged.collect()
+    let judged = move |v: &Version<'_>| judged(v.steps.clone(), &mut rates);
+    versions.iter().map(judged)
 }
 
 fn evidence(steps: &[Step]) -> f64 {
