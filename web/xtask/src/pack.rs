@@ -53,8 +53,8 @@ impl Parts {
             files.insert(name, text(name)?);
         }
         let worker = script(page, "worker.js")?;
-        files.insert("worker.js", format!("{glue}\n{worker}"));
-        files.insert("app.js", script(page, "app.js")?);
+        files.insert("worker.js", without_comments(&format!("{glue}\n{worker}")));
+        files.insert("app.js", without_comments(&script(page, "app.js")?));
         Ok(Self { files, wasm })
     }
 
@@ -135,4 +135,11 @@ fn gzipped(bytes: &[u8]) -> Result<String, Box<dyn Error>> {
 /// A script or style as the policy names it.
 fn hash(text: &str) -> String {
     format!("sha256-{}", STANDARD.encode(Sha256::digest(text)))
+}
+
+/// A script without the lines that are comments alone: who reads the page's code reads it in `page/`.
+fn without_comments(script: &str) -> String {
+    let is_code = |line: &&str| !line.trim_start().starts_with("//");
+    let code = script.lines().filter(is_code);
+    code.flat_map(|line| [line, "\n"]).collect()
 }
