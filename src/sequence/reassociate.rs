@@ -35,7 +35,7 @@ impl<'a> Version<'a> {
     }
 }
 
-/// Follows a chain anew, and what comes of it again, until that was seen before.
+/// Follows a chain anew, and what comes of it again, until that was seen before or no three neighbours of it are heard.
 ///
 /// If it is the chain followed last, nothing moves any more. If it is an earlier one, the versions since then lead to one another
 /// for ever, and the one with the most evidence among them is taken, under one clutter: all events but those that any of them
@@ -147,19 +147,21 @@ mod tests {
     use crate::sequence::clutter::Clutter;
     use crate::sequence::seeds::seeds;
 
+    fn event(time_s: f64, jitter_s: f64, strength: f64) -> Event {
+        Event {
+            time_s,
+            jitter_s,
+            strength,
+            loudness: strength.ln(),
+            profile: Profile::default(),
+        }
+    }
+
     /// A drop of faint impacts with an echo, among knocks nearly as strong.
     fn events(seed: u64) -> Vec<Event> {
         let mut rng = SplitMix64::new(seed);
         let mut events = Vec::new();
-        let mut add = |time_s: f64, strength: f64| {
-            events.push(Event {
-                time_s,
-                jitter_s: 2e-4,
-                strength,
-                loudness: strength.ln(),
-                profile: Profile::default(),
-            });
-        };
+        let mut add = |time_s, strength| events.push(event(time_s, 2e-4, strength));
         let (mut at_s, mut flight_s) = (1.0, 0.5);
         for _ in 0..30 {
             let strength = 30.0 * (0.5 * rng.normal()).exp();
@@ -203,15 +205,7 @@ mod tests {
     fn with_echoes(seed: u64) -> (Vec<Event>, Vec<f64>) {
         let mut rng = SplitMix64::new(seed);
         let (mut events, mut impacts_s) = (Vec::new(), Vec::new());
-        let mut add = |time_s: f64, strength: f64| {
-            events.push(Event {
-                time_s,
-                jitter_s: 1.7e-4,
-                strength,
-                loudness: strength.ln(),
-                profile: Profile::default(),
-            });
-        };
+        let mut add = |time_s, strength| events.push(event(time_s, 1.7e-4, strength));
         let (mut at_s, mut flight_s) = (0.13, 0.188);
         for _ in 0..60 {
             impacts_s.push(at_s);
