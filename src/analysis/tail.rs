@@ -79,7 +79,7 @@ fn region(chain: &Chain, recording_end_s: f64) -> Option<(f64, f64)> {
     Some((start_s, end_s))
 }
 
-/// The early part of the old chain and the new late part, if more was heard that way.
+/// The early part of the old chain and the new late part, if more was heard that way and that part is likelier a ball than chance.
 fn joined(chain: &Chain, end: &Chain) -> Option<Chain> {
     let [first_new, second_new, ..] = end.impacts.as_slice() else {
         return None;
@@ -98,5 +98,34 @@ fn joined(chain: &Chain, end: &Chain) -> Option<Chain> {
         rejected: rejected.copied().collect(),
         impacts,
     };
-    (joined.heard() > chain.heard()).then_some(joined)
+    (joined.heard() > chain.heard() && end.evidence() > 0.0).then_some(joined)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::impact::Status;
+
+    /// Impacts of a ball of e = 0.8 from one of its impacts on.
+    fn chain(impacts: std::ops::Range<i32>, nats: f64) -> Chain {
+        let impact = |n: i32| Impact {
+            time_s: 1.0 + 0.5 * (1.0 - 0.8_f64.powi(n)) / (1.0 - 0.8),
+            std_s: 1e-5,
+            status: Status::Heard,
+            nats,
+        };
+        Chain {
+            impacts: impacts.map(impact).collect(),
+            rejected: Vec::new(),
+        }
+    }
+
+    #[test]
+    fn an_end_is_joined_where_it_has_more_impacts_and_is_likelier_a_ball_than_chance() {
+        let known = chain(0..8, 3.0);
+        let joined_to = |end: &Chain| joined(&known, end).map(|chain| chain.heard());
+        assert!(joined_to(&chain(4..12, 2.0)) == Some(12));
+        assert!(joined_to(&chain(4..12, -0.1)).is_none());
+        assert!(joined_to(&chain(4..8, 2.0)).is_none());
+    }
 }

@@ -11,6 +11,9 @@ const NEAR_S: [f64; 2] = [0.875, 0.1];
 /// Shape of the gamma distribution of the rate over a recording: sounds come in bursts, so what happens at other times says
 /// little of the surroundings of an event.
 const SHAPE: f64 = 0.2;
+/// … of the rate of a burst of like sounds, which a chain is judged against. Derived: of a rate of which nothing but its mean is known
+/// the exponential distribution has the most entropy.
+const SHAPE_OF_BURSTS: f64 = 1.0;
 /// Knocks per second that happen where balls are dropped, whatever the noise: two a minute, of any strength.
 const KNOCKS_PER_S: f64 = 0.03;
 /// Share of the events near one that is clutter at least, however many of them may be impacts of the chain that is followed.
@@ -81,6 +84,20 @@ impl<'a> Clutter<'a> {
         near
     }
 
+    /// What some of the events have around one, itself not counted.
+    fn around_among(&self, event: usize, some: &[usize]) -> Around {
+        let this = &self.events[event];
+        let kind = Kind::of(this);
+        let mut around = Around::default();
+        for other in some.iter().filter(|&&i| i != event) {
+            let other = &self.events[*other];
+            let like = kind.density_near(other);
+            around.at_large += like;
+            add_where_near(&mut around.near, like, other, this);
+        }
+        around
+    }
+
     /// How many seconds lie within so many of an event.
     fn span_s(&self, event: usize, near_s: f64) -> f64 {
         let time_s = self.events[event].time_s;
@@ -133,13 +150,13 @@ impl Local {
     /// The mean of a rate whose prior is gamma's with the mean of what lies around and one shape.
     ///
     /// # Formula
-    /// `λ = (n + a)/(t + a/m)` for n events in t seconds, m per second on average, and shape a = 0.2: of the wider
-    /// surroundings with the mean of the whole recording, of the nearer ones with that of the wider.
-    fn rate_per_s(&self, own: impl Fn(f64) -> f64) -> f64 {
+    /// `λ = (n + a)/(t + a/m)` for n events in t seconds, m per second on average, and shape a: of the wider surroundings with the
+    /// mean of the whole recording, of the nearer ones with that of the wider.
+    fn rate_per_s(&self, shape: f64, own: impl Fn(f64) -> f64) -> f64 {
         let surroundings = self.near.iter().zip(NEAR_S);
         surroundings.fold(self.mean_per_s, |mean, (&(near, span_s), near_s)| {
             let near = (near - own(near_s)).max(LEAST_SHARE * near);
-            (near + SHAPE) / (span_s + SHAPE / mean)
+            (near + shape) / (span_s + shape / mean)
         })
     }
 }
@@ -173,14 +190,7 @@ impl<'a> Rates<'a> {
     /// Every event counts by how like it is in loudness and sound, `f = φ((l − l')/h)/h · min(1, L)`: those near the event, and of
     /// the whole recording `m = Σ f / D + κ/R`, κ a rate of knocks of any loudness in a range R.
     pub(super) fn ln_per_s(&mut self, event: usize, flight_s: f64) -> f64 {
-        let local = match self.known[event] {
-            Some(local) => local,
-            None => {
-                let local = self.local(event);
-                self.known[event] = Some(local);
-                local
-            }
-        };
+        let local = self.known(event);
         let own = |near_s| {
             if self.hopeful {
                 own(flight_s, near_s)
@@ -188,13 +198,34 @@ impl<'a> Rates<'a> {
                 0.0
             }
         };
-        local.rate_per_s(own).ln()
+        local.rate_per_s(SHAPE, own).ln()
+    }
+
+    /// ln of the rate at an event of a burst of sounds like it, of which some came before, at other times of the recording too.
+    ///
+    /// Those of a chain are its impacts so far. So n like sounds without order cost what they would if nobody knew their rate,
+    /// `Π (k + a)/(t + a/m)` for k from 0 to n − 1, and a sound of their kind that is no impact costs the chain `ln n` in all,
+    /// and not something of each.
+    pub(super) fn ln_per_s_in_burst(&mut self, event: usize, before: &[usize]) -> f64 {
+        let mut local = self.known(event);
+        let seen = self.clutter.around_among(event, before);
+        for ((near, _), seen) in local.near.iter_mut().zip(seen.near) {
+            *near += seen;
+        }
+        local.mean_per_s += seen.at_large / self.clutter.duration_s();
+        local.rate_per_s(SHAPE_OF_BURSTS, |_| 0.0).ln()
+    }
+
+    fn known(&mut self, event: usize) -> Local {
+        let local = self.known[event].unwrap_or_else(|| self.local(event));
+        self.known[event] = Some(local);
+        local
     }
 
     fn local(&self, event: usize) -> Local {
         let clutter = self.clutter;
         let around = clutter.around(event);
-        let own = self.own_around(event);
+        let own = clutter.around_among(event, &self.associated);
         let near = |k: usize| {
             let left = (around.near[k] - own.near[k]).max(0.0);
             (left, clutter.span_s(event, NEAR_S[k]))
@@ -204,20 +235,6 @@ impl<'a> Rates<'a> {
             near: [near(0), near(1)],
             mean_per_s: at_large / clutter.duration_s() + KNOCKS_PER_S * LOUDNESS_AT_LARGE,
         }
-    }
-
-    /// What the chain has around an event.
-    fn own_around(&self, event: usize) -> Around {
-        let events = self.clutter.events;
-        let this = &events[event];
-        let kind = Kind::of(this);
-        let mut own = Around::default();
-        for &i in self.associated.iter().filter(|&&i| i != event) {
-            let like = kind.density_near(&events[i]);
-            own.at_large += like;
-            add_where_near(&mut own.near, like, &events[i], this);
-        }
-        own
     }
 }
 

@@ -9,6 +9,7 @@ use super::seeds::seeds;
 use super::shape::Shrinkage;
 use super::together::together;
 use super::track::{Scene, Step, follow};
+use crate::units::real;
 
 /// What was found among the events.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -30,8 +31,8 @@ pub struct Candidate {
     pub needed_nats: f64,
 }
 
-/// Evidence a chain needs to be a drop, in nats: chance rarely makes one (none in 24 recordings without a drop).
-pub(super) const LEAST_EVIDENCE: f64 = 12.0;
+/// Evidence a chain needs to be a drop, in nats: odds of 150 to 1 against a burst of like sounds.
+pub(super) const LEAST_EVIDENCE: f64 = 5.0;
 /// Fewest impacts heard that make a drop: three flights, whose two ratios agree.
 const FEWEST: usize = 4;
 /// The flights shrink: nats by which a ball explains them better than a hand or a clock.
@@ -113,12 +114,12 @@ fn apart(mut tracks: Vec<Track>, known: &[Track]) -> Vec<Track> {
         }
         let sharing = found.iter().chain(&left).filter(|t| t.shares(&track));
         let sharing: Vec<(f64, Track)> = sharing
-            .map(|other| (other.chain.evidence(), other.beside(&track)))
+            .map(|other| {
+                let rest = other.beside(&track);
+                (cost(other, &rest), rest)
+            })
             .collect();
-        let cost = sharing
-            .iter()
-            .map(|(whole, rest)| whole - rest.chain.evidence());
-        if track.chain.evidence() > cost.sum() {
+        if track.chain.evidence() > sharing.iter().map(|(cost, _)| cost).sum() {
             found.retain(|other| !other.shares(&track));
             left.retain(|other| !other.shares(&track));
             left.extend(sharing.into_iter().map(|(_, rest)| rest));
@@ -127,6 +128,14 @@ fn apart(mut tracks: Vec<Track>, known: &[Track]) -> Vec<Track> {
     }
     found.sort_by(by_evidence);
     found
+}
+
+/// What it costs a chain that only a part of it is left: as much of its evidence as of its impacts at least, since the part has to
+/// begin anew, as the whole did.
+fn cost(whole: &Track, rest: &Track) -> f64 {
+    let evidence = whole.chain.evidence();
+    let share = real(rest.events.len()) / real(whole.events.len());
+    (evidence - rest.chain.evidence().min(share * evidence)).max(0.0)
 }
 
 /// Follows a known chain through other events, from the three neighbouring impacts among them that earn most.

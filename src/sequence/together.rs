@@ -2,7 +2,7 @@
 
 use super::chain::Track;
 use super::reasons::associated;
-use super::reassociate::judged;
+use super::reassociate::against_bursts;
 use super::shape::Shrinkage;
 use super::track::Scene;
 
@@ -44,7 +44,7 @@ fn enough(scene: &Scene<'_>, mut group: Vec<&Track>, least_evidence: f64) -> Vec
         let mut rates = scene.rates_without(&own);
         let among = group
             .iter()
-            .map(|track| Track::new(judged(track.steps.clone(), &mut rates)));
+            .map(|track| Track::new(against_bursts(track.steps.clone(), &mut rates)));
         let judged: Vec<Track> = among.collect();
         let evidences = judged
             .iter()
