@@ -32,7 +32,8 @@ pub fn quantile(values: impl IntoIterator<Item = f64>, share: f64) -> Option<f64
     sorted.get(rank - 1).copied()
 }
 
-fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
+/// The values, ascending.
+pub(crate) fn sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.into_iter().collect();
     sorted.sort_by(f64::total_cmp);
     sorted

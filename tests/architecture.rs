@@ -21,7 +21,10 @@ const MAY_NAME: [(&str, &[&str]); 28] = [
     ("statistics.rs", &["units"]),
     ("physics", &["units", "random"]),
     ("signal", &["units", "linalg"]),
-    ("detect", &["units", "event", "linalg", "signal"]),
+    (
+        "detect",
+        &["units", "statistics", "event", "linalg", "signal"],
+    ),
     (
         "sequence",
         &[
@@ -77,7 +80,10 @@ const MAY_NAME: [(&str, &[&str]); 28] = [
         &["workers", "report", "rules", "analysis", "audio"],
     ),
     ("plot", &[]),
-    ("picture", &["units", "physics", "report", "plot"]),
+    (
+        "picture",
+        &["units", "statistics", "physics", "report", "plot"],
+    ),
     ("synth", &["units", "random", "physics"]),
     (
         "evaluate",

@@ -65,7 +65,7 @@ pub fn events(
             profile: Profile::default(),
         })
         .collect();
-    found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    found.sort_by(Event::order);
     Some(found)
 }
 

@@ -20,6 +20,7 @@ use crate::Error;
 use crate::event::Event;
 use crate::signal::filterbank::Filterbank;
 use crate::signal::sound::{Sound, loudest};
+use crate::statistics::sorted;
 use crate::units::{real, samples_in};
 
 /// Time grid of the energy, in seconds; a bank rounds it to a power of two of samples. Convention: a few times shorter than
@@ -91,7 +92,7 @@ impl Detector {
             self.add_events(&segment, inside, &mut found);
         }
         // The sound of a peak may begin before that of the peak before it.
-        found.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        found.sort_by(Event::order);
         found
     }
 
@@ -140,9 +141,8 @@ const SPEAKERS: usize = 100;
 /// different times, and their sum smears its onset.
 #[must_use]
 pub fn clarity(events: &[Event]) -> f64 {
-    let mut strengths: Vec<f64> = events.iter().map(|e| e.strength).collect();
-    strengths.sort_by(|a, b| b.total_cmp(a));
-    strengths.iter().take(SPEAKERS).sum()
+    let strengths = sorted(events.iter().map(|e| e.strength));
+    strengths.iter().rev().take(SPEAKERS).sum()
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use super::{around, around_by_ratio, at_least};
 use crate::physics::BallModel;
 use crate::plot::{Axis, Band, Colour, Curve, Dots, Layer, Panel, Shape, Stroke};
 use crate::report::{Drop, Impact};
+use crate::statistics::sorted;
 use crate::units::real;
 
 /// Residuals and e are not shown more closely than this.
@@ -226,8 +227,7 @@ fn ln_interval_std(impact: &Impact) -> f64 {
 
 /// Ends of an axis for points with error bars: it holds them all, but for the few that would leave the rest no room.
 fn most(points: &[(f64, f64)], errors: &[f64]) -> (f64, f64) {
-    let mut values: Vec<f64> = points.iter().map(|p| p.1).collect();
-    values.sort_by(f64::total_cmp);
+    let values = sorted(points.iter().map(|p| p.1));
     let tenth = values.len() / 10;
     let middle = values.get(tenth..values.len() - tenth).unwrap_or(&[]);
     let (Some(low), Some(high)) = (middle.first(), middle.last()) else {

@@ -3,6 +3,7 @@
 use super::around;
 use crate::plot::{Axis, Band, Colour, Curve, Dots, Figure, Layer, Panel, Shape};
 use crate::report::curve::SpeedCurve;
+use crate::statistics::sorted;
 use crate::units::{real, whole};
 
 /// The axis of e leaves out as many bounces at either end: those that stray farthest would make a line of the band. Convention.
@@ -44,8 +45,7 @@ pub fn sheet(curve: &SpeedCurve) -> Figure {
 
 /// The range of e that most bounces keep to: the last ones of a drop stray far.
 fn most(dots: &[(f64, f64)]) -> Vec<f64> {
-    let mut values: Vec<f64> = dots.iter().map(|(_, e)| *e).collect();
-    values.sort_by(f64::total_cmp);
+    let values = sorted(dots.iter().map(|(_, e)| *e));
     let at = |share: f64| {
         values
             .get(whole(share * real(values.len().saturating_sub(1))))

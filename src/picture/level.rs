@@ -3,6 +3,7 @@
 use super::sound::Sound;
 use crate::plot::{Axis, Band, Colour, Dots, Layer, Note, Panel, Shape, Side};
 use crate::report::{Drop, Report, Status};
+use crate::statistics::sorted;
 
 /// Levels shown below the ordinary one, in dB.
 const BELOW_DB: f64 = 6.0;
@@ -87,8 +88,7 @@ pub(super) fn panel(report: &Report, drop: Option<&Drop>, sound: &Sound) -> Pane
 
 /// The foot of the panel: below the ordinary level of the sound and below the weakest impact.
 fn least_db(drop: Option<&Drop>, sound: &Sound) -> f64 {
-    let mut levels: Vec<f64> = sound.levels().map(|(_, level)| level).collect();
-    levels.sort_by(f64::total_cmp);
+    let levels = sorted(sound.levels().map(|(_, level)| level));
     let ordinary = levels.get(levels.len() / 10).copied().unwrap_or(LEAST_DB);
     let impacts = drop.into_iter().flat_map(|d| &d.impacts);
     let weakest = impacts.filter_map(|i| i.level_db).fold(0.0, f64::min);

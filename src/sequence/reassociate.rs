@@ -225,14 +225,8 @@ mod tests {
             at_s += flight_s;
             flight_s *= 0.93;
         }
-        let event = |&time_s: &f64| Event {
-            time_s,
-            jitter_s: 1e-4,
-            strength: 90.0,
-            loudness: 4.5,
-            profile: Profile::default(),
-        };
-        let events: Vec<Event> = times_s.iter().map(event).collect();
+        let alike = |&time_s: &f64| event(time_s, 1e-4, 90.0);
+        let events: Vec<Event> = times_s.iter().map(alike).collect();
         let clutter = Clutter::new(&events);
         let scene = Scene::new(&events, &clutter);
         let start = [knocks, knocks + 1, knocks + 2];

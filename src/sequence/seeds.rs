@@ -1,5 +1,7 @@
 //! Three events from which a drop may be followed.
 
+use std::cmp::Ordering;
+
 use super::flight::{Doubt, FlightLaw};
 use super::marks::ln_sounds;
 use super::track::Scene;
@@ -44,13 +46,17 @@ pub fn seeds(scene: &Scene<'_>) -> Vec<[usize; 3]> {
         triples_around(scene, &initiators, place, &mut second);
     }
     keep_best(&mut second, &mut found);
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
+    found.sort_by(best_first);
     found.into_iter().map(|(_, seed)| seed).collect()
 }
 
 fn keep_best(second: &mut Vec<Scored>, found: &mut Vec<Scored>) {
-    second.sort_by(|a, b| b.0.total_cmp(&a.0));
+    second.sort_by(best_first);
     found.extend(second.drain(..).take(SEEDS_PER_S));
+}
+
+fn best_first(a: &Scored, b: &Scored) -> Ordering {
+    b.0.total_cmp(&a.0)
 }
 
 /// An event that may start a chain.

@@ -2,6 +2,7 @@
 
 use crate::report::Drop;
 use crate::sequence::Chain;
+use crate::statistics::sorted;
 
 /// Impacts of two searches are one if they are nearer than this share of the flight between them and the next. Derived: times
 /// of one impact differ by some ms at most, in noise; of unlike drops one impact in five is so near to another by chance.
@@ -112,11 +113,7 @@ impl Known {
 pub(super) fn reported_s(known: &[Known], again: &[Times]) -> Vec<f64> {
     let kept = known.iter().filter(|k| !again.iter().any(|a| k.is_same(a)));
     let told = kept.filter_map(|k| k.told.as_ref());
-    let mut times: Vec<f64> = told
-        .flat_map(|(_, times)| times.0.iter().copied())
-        .collect();
-    times.sort_by(f64::total_cmp);
-    times
+    sorted(told.flat_map(|(_, times)| times.0.iter().copied()))
 }
 
 #[cfg(test)]

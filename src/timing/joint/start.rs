@@ -5,7 +5,7 @@ use crate::impact::Impact;
 use crate::signal::interpolate::shifted;
 use crate::signal::template::aligned::Cut;
 use crate::signal::whiten::Whitened;
-use crate::statistics::upper_median;
+use crate::statistics::{sorted, upper_median};
 use crate::units::{real, samples_in, whole};
 
 /// Fewest impacts timed together. Derived: fewer have no mean to differ from.
@@ -148,10 +148,9 @@ fn top(sound: &[f64]) -> usize {
 
 /// Samples after the onset that three impacts at least sound alone.
 fn longest(flights: &[f64], rate: f64, before: usize) -> usize {
-    let mut sorted = flights.to_vec();
-    sorted.sort_by(|a, b| b.total_cmp(a));
-    let third = sorted.get(2).or(sorted.last()).copied().unwrap_or(0.0);
-    let alone = whole(0.9 * third - real(before));
+    let flights = sorted(flights.iter().copied());
+    let third = flights.iter().rev().take(3).last().copied();
+    let alone = whole(0.9 * third.unwrap_or(0.0) - real(before));
     alone.min(samples_in(LONGEST_S, rate))
 }
 

@@ -137,9 +137,32 @@ fn hash(text: &str) -> String {
     format!("sha256-{}", STANDARD.encode(Sha256::digest(text)))
 }
 
-/// A script without the lines that are comments alone: who reads the page's code reads it in `page/`.
+/// A script without the lines that are comments alone, and without those that describe the library's functions: who reads the
+/// page's code reads it in `page/`.
 fn without_comments(script: &str) -> String {
-    let is_code = |line: &&str| !line.trim_start().starts_with("//");
+    let mut described = false;
+    let is_code = |line: &&str| {
+        let line = line.trim();
+        described |= line.starts_with("/**");
+        let is_comment = described || line.starts_with("//");
+        described &= !line.ends_with("*/");
+        !is_comment
+    };
     let code = script.lines().filter(is_code);
     code.flat_map(|line| [line, "\n"]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_comments;
+
+    #[test]
+    fn comments_go_and_products_stay() {
+        let script =
+            "/**\n * Adds.\n */\nadd(a,\n  b)\n  // Twice.\n  * 2; // here\n/** One. */\nf();\n";
+        assert_eq!(
+            without_comments(script),
+            "add(a,\n  b)\n  * 2; // here\nf();\n"
+        );
+    }
 }
