@@ -149,7 +149,7 @@ fn top(sound: &[f64]) -> usize {
 /// Samples after the onset that three impacts at least sound alone.
 fn longest(flights: &[f64], rate: f64, before: usize) -> usize {
     let flights = sorted(flights.iter().copied());
-    let third = flights.iter().rev().take(3).last().copied();
+    let third = flights.iter().rev().take(3).next_back().copied();
     let alone = whole(0.9 * third.unwrap_or(0.0) - real(before));
     alone.min(samples_in(LONGEST_S, rate))
 }
