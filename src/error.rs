@@ -64,7 +64,7 @@ pub enum Error {
         problem: String,
     },
     /// Reading or writing failed.
-    #[error(transparent)]
+    #[error("{}", Self::of_system(.0))]
     #[cfg(feature = "audio")]
     Io(#[from] std::io::Error),
     /// An error that happened while working on one file.

@@ -2,7 +2,7 @@
 
 use bounce_audio::Error;
 use pyo3::exceptions::PyOSError;
-use pyo3::{PyErr, import_exception};
+use pyo3::{PyErr, import_exception, pyfunction};
 
 import_exception!(bounce_audio.errors, ArgumentError);
 import_exception!(bounce_audio.errors, InternalError);
@@ -80,4 +80,10 @@ fn from_system(file: Option<String>, cause: &std::io::Error, said: String) -> Py
         }
         _ => PyOSError::new_err(said),
     }
+}
+
+/// What the command says of an error of the system, by its number.
+#[pyfunction]
+pub(crate) fn system_words(number: i32) -> String {
+    Error::from(std::io::Error::from_raw_os_error(number)).to_string()
 }

@@ -28,6 +28,8 @@ mod _core {
     #[pymodule_export]
     use crate::compared::{Digests, compare, drop_columns, drop_rows};
     #[pymodule_export]
+    use crate::errors::system_words;
+    #[pymodule_export]
     use crate::failure::break_off;
     #[pymodule_export]
     use crate::listener::Listener;

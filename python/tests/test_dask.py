@@ -178,7 +178,7 @@ def test_what_is_wrong_is_said_at_once(tmp_path: Path) -> None:
     assert not out.exists()
     run = analyze_folder([tmp_path / "gone.wav"], out, parquet=False)
     [line] = bounce_audio.folders.lines(out)
-    assert run.files == 1 and "No such file" in json.loads(line)["error"]
+    assert run.files == 1 and "no such file" in json.loads(line)["error"]
 
 
 def test_places_of_fsspec_are_read_by_their_bytes(

@@ -8,6 +8,7 @@ mod compressed;
 mod content;
 mod memory;
 mod stream;
+mod system;
 mod wav;
 
 use std::io::Read;

@@ -117,7 +117,7 @@ fn a_bad_file_costs_one_row_with_its_reason() {
     assert_eq!(column(&output.stdout, "status"), status);
     let reasons = column(&output.stdout, "reason");
     for (reason, expected) in reasons.iter().zip([
-        "No such file",
+        "there is no such file or folder",
         "is empty",
         "ends before its samples",
         "",

@@ -179,7 +179,7 @@ fn an_error_is_json_where_json_was_asked_for() {
     for (arguments, error, file) in [
         (
             &["analyze", "no.wav"][..],
-            "No such file",
+            "there is no such file",
             Value::from("no.wav"),
         ),
         (
@@ -361,7 +361,10 @@ fn what_cannot_be_read_is_one_line_and_status_2() {
         .finalize()
         .unwrap();
     for (path, reason) in [
-        (folder.join("missing.wav"), "No such file"),
+        (
+            folder.join("missing.wav"),
+            "there is no such file or folder\n",
+        ),
         (folder.clone(), "directory"),
         (empty, "empty"),
         (words, "none of WAV, FLAC"),

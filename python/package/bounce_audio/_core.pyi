@@ -23,6 +23,7 @@ __all__ = [
     "solve_contact",
     "solve_total_time",
     "synth",
+    "system_words",
 ]
 
 VERSION: str
@@ -90,3 +91,4 @@ def solve_total_time(
 def synth(
     scene: str, is_text: bool, seed: int
 ) -> tuple[npt.NDArray[np.float32], str]: ...
+def system_words(number: int) -> str: ...

@@ -104,7 +104,7 @@ def listen(file: str, job: Job) -> str:
     try:
         return _document(file, job)
     except OSError as error:
-        why = f"{error.strerror} (os error {error.errno})" if error.strerror else str(error)
+        why = _core.system_words(error.errno) if error.errno else str(error)
         return failure(file, why)
     except BounceAudioError as error:
         return failure(file, str(error).removeprefix(f"{file}: "))

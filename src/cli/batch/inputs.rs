@@ -100,7 +100,7 @@ impl Gathered {
         let mut paths: Vec<PathBuf> = match listed {
             Ok(entries) => entries.iter().map(fs::DirEntry::path).collect(),
             Err(e) => {
-                let reason = format!("the folder cannot be read: {e}");
+                let reason = format!("the folder cannot be read: {}", Error::from(e));
                 return self.inputs.push(Input::Folder(folder.into(), reason));
             }
         };
