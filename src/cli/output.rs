@@ -1,7 +1,7 @@
 //! Files that are whole or not there: written beside their place, then renamed. What a person made is not replaced.
 
 use std::fs::{self, File, Metadata};
-use std::io::{self, Read, Write};
+use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
 use crate::Error;
@@ -84,7 +84,7 @@ impl Whole {
         let mut name = place.file_name().unwrap_or_default().to_os_string();
         name.push(format!(".{}.partial", std::process::id()));
         let partial = place.with_file_name(name);
-        let mut file = File::create(&partial).map_err(|e| without_folder(e, &place))?;
+        let mut file = File::create(&partial).map_err(|e| by_folder(e, &place))?;
         self.rename = Some((partial, place));
         write(&mut file)?;
         if let Some(there) = there {
@@ -104,7 +104,7 @@ impl Whole {
             .as_ref()
             .map(|(_, place)| fs::remove_file(place))
         {
-            Some(Err(e)) if e.kind() != io::ErrorKind::NotFound => {
+            Some(Err(e)) if e.kind() != ErrorKind::NotFound => {
                 Err(Error::from(e).in_file(&self.path))
             }
             _ => Ok(()),
@@ -134,25 +134,29 @@ impl Drop for Whole {
     }
 }
 
-/// That the folder is what is missing, where it is.
-pub(super) fn without_folder(error: io::Error, place: &Path) -> io::Error {
+/// Of a file that could not be made: that its folder is at fault, where it is.
+pub(super) fn by_folder(error: io::Error, place: &Path) -> io::Error {
     let folder = place.parent().filter(|f| !f.as_os_str().is_empty());
-    match folder {
-        Some(folder) if error.kind() == io::ErrorKind::NotFound && !folder.exists() => {
-            let said = format!("there is no folder {}", folder.display());
-            io::Error::new(error.kind(), said)
+    let folder = folder.unwrap_or(Path::new("."));
+    let shown = folder.display();
+    let said = match error.kind() {
+        ErrorKind::NotFound if !folder.exists() => format!("there is no folder {shown}"),
+        _ if folder.is_file() => format!("{shown} is a file, not a folder"),
+        ErrorKind::NotFound | ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            format!("no file can be made in the folder {shown}")
         }
-        _ => error,
-    }
+        _ => return error,
+    };
+    io::Error::new(error.kind(), said)
 }
 
 /// A rename would take the place of a file even where writing to it is not allowed.
 pub(super) fn check_replaceable(there: &Metadata) -> io::Result<()> {
     if there.is_dir() {
-        return Err(io::ErrorKind::IsADirectory.into());
+        return Err(ErrorKind::IsADirectory.into());
     }
     if there.permissions().readonly() {
-        return Err(io::ErrorKind::PermissionDenied.into());
+        return Err(ErrorKind::PermissionDenied.into());
     }
     Ok(())
 }

@@ -172,7 +172,18 @@ fn what_cannot_be_meant_is_refused_at_once() {
         (&["a.wav", "--resume"], "--output"),
         (&["a.wav", "--pattern", "{height}cm.wav"], "with its unit"),
         (&["a.wav", "--options", "no.csv"], "no.csv"),
-        (&["a.wav", "-o", "no/such/out.csv"], "no/such/out.csv"),
+        (
+            &["a.wav", "-o", "no/such/out.csv"],
+            "no/such/out.csv: there is no folder no/such\n",
+        ),
+        (
+            &["a.wav", "-o", "no/such/out.csv", "--resume"],
+            "no/such/out.csv: there is no folder no/such\n",
+        ),
+        (
+            &["a.wav", "-o", "a.wav/out.csv"],
+            "a.wav/out.csv: a.wav is a file, not a folder\n",
+        ),
     ] {
         let output = run(&folder, &[&["batch"], arguments].concat());
         assert_eq!(output.status.code(), Some(2), "{arguments:?}");

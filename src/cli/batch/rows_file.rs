@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use super::format::{Format, ReadBack};
 use crate::Error;
-use crate::cli::output::{check_replaceable, without_folder};
+use crate::cli::output::{by_folder, check_replaceable};
 
 /// The file that rows are added to.
 #[derive(Debug)]
@@ -73,10 +73,13 @@ impl RowsFile {
         let open = options.open(&partial_path).map_err(|e| match e.kind() {
             ErrorKind::AlreadyExists => Error::refused(
                 "it was left by an interrupted run: --resume goes on with it, --force starts again",
-            ),
-            _ => without_folder(e, path).into(),
+            )
+            .in_file(&partial_path),
+            _ if partial_path.exists() => Error::from(e).in_file(&partial_path),
+            // The user named the other file, and neither is there.
+            _ => Error::from(by_folder(e, path)).in_file(path),
         });
-        let partial = open.map_err(|e| e.in_file(&partial_path))?;
+        let partial = open?;
         // Where files cannot be locked, nobody is kept out.
         if matches!(partial.try_lock(), Err(TryLockError::WouldBlock)) {
             let problem = "another run is writing it: wait for its end";
