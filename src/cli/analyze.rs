@@ -124,7 +124,11 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     let output = match arguments.format {
         Format::Text => {
             let advice = |code| advice(&report, code);
-            text::to_text_with(&report, detail(arguments), &advice)
+            let detail = detail(arguments);
+            let ball = arguments
+                .rule
+                .ball(&arguments.listening.known, &report, detail);
+            text::to_text_with(&report, detail, &advice) + ball
         }
         Format::Csv if arguments.decimal == Decimal::Comma => {
             csv::with_decimal_commas(&csv::to_csv(&report))

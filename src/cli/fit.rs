@@ -129,7 +129,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         (false, true) => Detail::Everything,
     };
     let output = match arguments.format {
-        Format::Text => text::to_text(&report, detail),
+        Format::Text => {
+            let ball = arguments.rule.ball(&arguments.known, &report, detail);
+            text::to_text(&report, detail) + ball
+        }
         Format::Csv if arguments.decimal == Some(Decimal::Comma) => {
             csv::with_decimal_commas(&csv::to_csv(&report))
         }

@@ -6,8 +6,10 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
 use clap::{Arg, Args, Command};
 
+use super::known::Known;
 use crate::report::Report;
 use crate::report::rule::Outcome;
+use crate::report::text::Detail;
 use crate::rules::{RULES, Rule, rule};
 
 /// Which rule to judge by.
@@ -33,6 +35,16 @@ impl RuleArguments {
         } else {
             worst.unwrap_or(0)
         }
+    }
+
+    /// What the text of a report ends with where the ball is the rule's: with its mass and diameter e is a little another than
+    /// without any, and a user who compares both asks why.
+    pub(super) fn ball(&self, known: &Known, report: &Report, detail: Detail) -> &'static str {
+        let given = known.mass.is_some() || known.diameter.is_some();
+        if self.rule.is_none() || given || report.drops.is_empty() || detail == Detail::Answer {
+            return "";
+        }
+        "\nMass and diameter are the rule's, for the drag in e too (--mass, --diameter)\n"
     }
 }
 

@@ -186,6 +186,12 @@ fn a_rule_is_judged_in_text_and_json() {
         text.contains("  rule     ittf-ball: ") && text.contains("rebound predicted "),
         "{text}"
     );
+    let of_rule = "\nMass and diameter are the rule's, for the drag in e too";
+    assert!(text.contains(of_rule), "{text}");
+    for more in [&["--mass", "2.7g", "--diameter", "40mm"][..], &["-q"]] {
+        let text = said(&[&["analyze", &file, "--rule", "ittf-ball"], more].concat());
+        assert!(!text.contains(of_rule), "{text}");
+    }
     let json = said(&["analyze", &file, "--rule", "ittf-ball", "--format", "json"]);
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["settings"]["mass_kg"], 2.7e-3);
