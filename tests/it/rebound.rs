@@ -114,6 +114,13 @@ fn a_lot_is_judged_ball_by_ball_and_read_back_to_the_same() {
     }
     let (status, said) = batch(&[]);
     assert_eq!(status, Some(0), "{said}");
+    // Nobody says which of the recordings are of one ball.
+    let said = run(&[&["batch", recordings.as_str()], &RULE[..]].concat());
+    let said = text(&said.stderr);
+    assert!(
+        said.contains("  balls    4 recordings, a ball each: 4 pass ({ball} in --pattern, "),
+        "{said}"
+    );
 }
 
 #[test]

@@ -31,6 +31,10 @@ pub(super) struct Together {
     groups: Option<(Vec<String>, Groups)>,
 }
 
+/// How drops of one ball in several recordings are told to be so.
+const NAMING: &str =
+    "{ball} in --pattern, or a column ball in --options, says which are of one ball";
+
 /// A drop with the path of its file.
 type OfFile<'a> = (&'a Path, &'a str, DropDigest);
 
@@ -63,16 +67,15 @@ impl Together {
 
     /// Each ball is that of the table or the name, else a file.
     fn judge(&mut self, job: &Job<'_>, rule: &Rule, drops: &[OfFile<'_>]) {
-        let ball = |path: &Path, file: &str| {
-            let given = job.given(path).ok().and_then(|given| given.ball);
-            given.unwrap_or_else(|| file.to_owned())
-        };
+        let named = |path: &Path| job.given(path).ok().and_then(|given| given.ball);
         let of = |(path, file, drop): &OfFile<'_>| {
             let rebound = drop.judged.and_then(|judged| judged.rebound_m);
-            (ball(path, file), rebound)
+            let ball = named(path).unwrap_or_else(|| (*file).to_owned());
+            (ball, rebound)
         };
         let lot = judge_lot(rule, &drops.iter().map(of).collect::<Vec<_>>());
-        self.said = "\n".to_owned() + &verdict(&lot);
+        let any_named = drops.iter().any(|(path, ..)| named(path).is_some());
+        self.said = "\n".to_owned() + &verdict(&lot, (!any_named).then_some(NAMING));
         self.status = status(lot.outcome);
         self.lot = Some(lot);
     }

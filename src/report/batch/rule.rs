@@ -6,9 +6,10 @@ use super::super::rule::{BallJudged, LotJudged, Outcome};
 use super::super::wrap::wrapped;
 use super::visible;
 
-/// The verdict on a lot, then the balls that do not pass.
+/// The verdict on a lot, then the balls that do not pass. Where no ball is named each recording stands for one; `naming` then
+/// says how to name them.
 #[must_use]
-pub fn verdict(lot: &LotJudged) -> String {
+pub fn verdict(lot: &LotJudged, naming: Option<&str>) -> String {
     let unit = Unit::of(lot.drop_height_m);
     let [low, high] = lot.allowed_m.map(|m| format!("{:.0}", unit.per_m * m));
     let mut lines = vec![format!(
@@ -24,7 +25,7 @@ pub fn verdict(lot: &LotJudged) -> String {
         .as_ref()
         .map_or_else(String::new, |why| format!(": {why}"));
     lines.push(format!("  lot      {}{why}", lot.outcome));
-    lines.push(format!("  balls    {}", counts(&lot.balls)));
+    lines.push(format!("  balls    {}", counts(&lot.balls, naming)));
     let worst = lot
         .balls
         .iter()
@@ -43,7 +44,7 @@ const fn word(outcome: Outcome) -> &'static str {
     }
 }
 
-fn counts(balls: &[BallJudged]) -> String {
+fn counts(balls: &[BallJudged], naming: Option<&str>) -> String {
     let of = |outcome: Outcome| balls.iter().filter(|b| b.outcome == outcome).count();
     let kinds = [
         (Outcome::Pass, "pass"),
@@ -55,7 +56,14 @@ fn counts(balls: &[BallJudged]) -> String {
     let said: Vec<String> = said
         .map(|(count, word)| format!("{count} {word}"))
         .collect();
-    format!("{}: {}", counted(balls.len(), "ball"), listed_words(&said))
+    let said = listed_words(&said);
+    match naming {
+        None => format!("{}: {said}", counted(balls.len(), "ball")),
+        Some(naming) => {
+            let recordings = counted(balls.len(), "recording");
+            format!("{recordings}, a ball each: {said} ({naming})")
+        }
+    }
 }
 
 fn one(ball: &BallJudged, unit: Unit) -> String {
