@@ -1,11 +1,13 @@
 //! Many recordings: e of each with its interval, their mean, and how often each e came out.
 
+use std::collections::HashSet;
+
 use super::names::Names;
 use super::{around, at_least, printable};
 use crate::plot::{
     Axis, Band, Colour, Curve, Dots, Figure, Layer, Note, Panel, Row, Shape, Side, Stroke,
 };
-use crate::report::short;
+use crate::report::{counted, short};
 use crate::units::{real, whole};
 
 /// One drop of a batch, or a recording without one.
@@ -78,7 +80,7 @@ pub fn sheet(rows: &[BatchRow], mean: Option<Mean>, order: Order) -> Figure {
     let all = panels.iter().map(|(height, _)| height).sum::<u32>();
     Figure {
         headline: mean.map(|(mean, std)| format!("mean e = {}", short(mean, std))),
-        title: format!("{} drops{}", values.len(), of_files(&names.shared)),
+        title: title(values.len(), &files, &names.shared),
         subtitle: None,
         rows: panels
             .into_iter()
@@ -92,12 +94,16 @@ pub fn sheet(rows: &[BatchRow], mean: Option<Mean>, order: Order) -> Figure {
     }
 }
 
-/// What the names have in common, which the rows leave out.
-fn of_files((head, tail): &(String, String)) -> String {
-    match (head.as_str(), tail.as_str()) {
-        ("", _) => String::new(),
-        (head, tail) => format!(" of {}", printable(&format!("{head}…{tail}"))),
-    }
+/// How many drops and recordings, and what the names of these have in common, which the rows leave out: without their number it
+/// would pass for the name of one.
+fn title(drops: usize, files: &[&str], (head, tail): &(String, String)) -> String {
+    let recordings = files.iter().collect::<HashSet<_>>().len();
+    let (drops, recordings) = (counted(drops, "drop"), counted(recordings, "recording"));
+    let named = match head.as_str() {
+        "" => String::new(),
+        head => format!(" named {}", printable(&format!("{head}…{tail}"))),
+    };
+    format!("{drops} in {recordings}{named}")
 }
 
 fn value(row: &BatchRow) -> Option<f64> {

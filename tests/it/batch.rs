@@ -483,7 +483,12 @@ fn a_batch_draws_its_drops_and_a_sheet_of_each_recording() {
     );
     assert!(output.status.success(), "{}", text(&output.stderr));
     let all = fs::read_to_string(folder.join("all.svg")).unwrap();
-    for part in ["mean e = ", ">\n2 drops\n", ">\nsteel\n", ">\ndead\n"] {
+    for part in [
+        "mean e = ",
+        ">\n2 drops in 2 recordings\n",
+        ">\nsteel\n",
+        ">\ndead\n",
+    ] {
         assert!(all.contains(part), "{part}");
     }
     for name in ["steel.wav.svg", "dead.wav.svg"] {

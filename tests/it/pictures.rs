@@ -269,7 +269,7 @@ fn a_batch_has_a_point_and_a_short_name_for_each_drop_and_a_histogram_of_all() {
     assert_eq!(count(&svg, "circle", RED), 2);
     for part in [
         "mean e = 0.9100 ± 0.0020",
-        "20 drops of ball-30cm-….wav",
+        "20 drops in 20 recordings named ball-30cm-….wav",
         ">\n0000\n",
         ">\n0019\n",
         "How often",
