@@ -76,9 +76,9 @@ fn samples(bytes: &[u8]) -> (f64, Vec<Vec<f32>>) {
 pub(crate) fn make_suite(folder: &Path, seeds: u64) -> Result<(), Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     for name in presets::names().chain(presets::found_names()) {
-        for seed in 1..=seeds {
-            let made = render(&presets::preset(name)?, seed)?;
-            let path = folder.join(format!("{name}-{seed}.samples"));
+        for number in 1..=seeds {
+            let made = render(&presets::preset(name)?, presets::seed(name, number))?;
+            let path = folder.join(format!("{name}-{number}.samples"));
             let truth = serde_json::to_string(&made.truth)?;
             fs::write(path.with_extension("json"), truth)?;
             let mut channels = vec![made.samples];

@@ -45,7 +45,7 @@ pub(super) struct Arguments {
     /// Make all presets in a folder, each with several seeds
     #[arg(long, value_name = "DIR", conflicts_with_all = ["scene", "preset", "output"])]
     suite: Option<PathBuf>,
-    /// How many seeds, from 1 up
+    /// How many seeds of each, which differ from scene to scene
     #[arg(
         long,
         default_value_t = 3,
@@ -87,10 +87,10 @@ fn make_suite(folder: &Path, arguments: &Arguments) -> Result<String, Error> {
     let mut made = 0;
     for name in &names {
         let scene = preset(name)?;
-        for seed in 1..=arguments.seeds {
+        for number in 1..=arguments.seeds {
             write(
-                &folder.join(format!("{name}-{seed}.wav")),
-                &render(&scene, seed)?,
+                &folder.join(format!("{name}-{number}.wav")),
+                &render(&scene, presets::seed(name, number))?,
             )?;
             made += 1;
         }
