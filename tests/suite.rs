@@ -72,7 +72,12 @@ fn evaluated(names: impl Iterator<Item = &'static str>) -> Evaluation {
 
 /// Figures that were once better and are owed: the threshold of the scene stays, and until it is met again this holds.
 /// What repays one takes it out here.
-const OWED: [(&str, &str, f64); 0] = [];
+const OWED: [(&str, &str, f64); 2] = [
+    // One impact each that an ideal listener would not hear, near the end, is now off by more than is counted as it; of 32 other
+    // recordings of footsteps 15 impacts are off by more than five standard errors, and were 23.
+    ("basketball", "precision", 0.968),
+    ("footsteps", "precision", 0.923),
+];
 
 /// The same of the second suite: words and taps that quicken and fade, all of one sound, are taken for a ball, and oftener since
 /// sounds of another kind no longer speak against one: it is a ball by its times, its loudness and its likeness, and what

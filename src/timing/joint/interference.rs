@@ -76,13 +76,18 @@ impl Joint<'_> {
         Some((sound, self.noise(begin, length, None)))
     }
 
-    /// Variance at samples from a position on: noise, and the misfit of all impacts, or of all but one.
+    /// Variance at samples from a position on: noise, and the misfit of all impacts, or of all but one. Endless where the next
+    /// impact is expected, which is in no template's place.
     pub(super) fn noise(&self, begin: f64, length: usize, without: Option<usize>) -> Vec<f64> {
         let mut noise = vec![UNKNOWN; length];
         let first = begin.round();
         let (skip, from) = (whole(-first), whole(first));
-        let recorded = self.started.sound.len().saturating_sub(from);
-        for n in noise.iter_mut().skip(skip).take(recorded) {
+        let heard = real(self.started.sound.len()).min(self.started.next);
+        for n in noise
+            .iter_mut()
+            .skip(skip)
+            .take(whole(heard).saturating_sub(from))
+        {
             *n = 1.0;
         }
         for (j, other) in self.places.iter().enumerate() {

@@ -129,7 +129,7 @@ pub(super) fn sketch(
     whitened: &Whitened<'_>,
     coarse: &[Impact],
 ) -> Option<(Vec<Impact>, Template)> {
-    let started = Started::of(whitened, coarse)?;
+    let started = Started::of(whitened, coarse)?.heard_to_its_end();
     let aligned = Aligned::of(&started)?;
     let mut joint = Joint::of(&started, aligned.clone(), 1);
     if joint.unlike() <= UNLIKE {

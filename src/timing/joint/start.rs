@@ -43,6 +43,8 @@ pub(super) struct Started {
     pub contact_stretches: Vec<f64>,
     /// The loudest of the impacts that nothing follows too soon.
     pub loudest: usize,
+    /// Position of the impact after the last one found, which is not among these: from there on the sound is of both.
+    pub next: f64,
 }
 
 impl Started {
@@ -84,10 +86,19 @@ impl Started {
             longest,
             head,
             contact_stretches: contact_stretches(&flights),
+            next: next(&priors, &flights),
             flights,
             priors,
             loudest,
         })
+    }
+
+    /// The same where the ball is taken to bounce no more after the last impact found.
+    pub(super) fn heard_to_its_end(self) -> Self {
+        Self {
+            next: f64::INFINITY,
+            ..self
+        }
     }
 
     /// The sound of an onset at a position: `length` samples after it, and those before it.
@@ -123,6 +134,14 @@ fn farthest(flights: &[f64], i: usize) -> f64 {
     let before = i.checked_sub(1).and_then(|i| flights.get(i));
     let near = before.into_iter().chain(flights.get(i));
     FLIGHT_SHARE * near.copied().fold(f64::INFINITY, f64::min)
+}
+
+/// Where the impact after the last one is expected: a flight on that is to the last as, in the median, each is to the one before.
+fn next(priors: &[Prior], flights: &[f64]) -> f64 {
+    let ratio = upper_median(flights.windows(2).map(|w| w[1] / w[0]));
+    let after = flights.last().zip(ratio).map(|(last, ratio)| last * ratio);
+    let last = priors.last().zip(after);
+    last.map_or(f64::INFINITY, |(last, after)| last.position + after)
 }
 
 /// The sound of most energy among those that nothing follows too soon and that the detector saw begin where it saw most begin: no
