@@ -1,5 +1,6 @@
 //! A constant-fraction discriminator: the time at which an impact's envelope first reaches a fixed share of its own peak.
 
+use crate::signal::interpolate::shifted;
 use crate::units::{real, samples_in};
 
 /// The crossing of the threshold by a rising envelope, in samples of its window.
@@ -21,6 +22,21 @@ const SMOOTHING_S: f64 = 0.1e-3;
 /// The peak is sought this far before and after the coarse time, in seconds.
 const EARLIEST_S: f64 = 0.8e-3;
 const LATEST_S: f64 = 1.5e-3;
+
+/// Places for each sample that a time is sought at: among the samples alone it hangs by a tenth of one on where they lie.
+const FINER: usize = 8;
+
+/// The [`time`] of a sound that begins near the sample `coarse`, sought between the samples too, since where it lies among these is
+/// chance.
+pub(crate) fn between_samples(sound: &[f64], coarse: usize, sample_rate_hz: f64) -> Option<f64> {
+    let (coarse, rate) = (FINER * coarse, real(FINER) * sample_rate_hz);
+    let length = length(coarse, rate).div_ceil(FINER).min(sound.len());
+    let shifts = (0..FINER).map(|k| shifted(sound, real(k) / real(FINER), length));
+    let shifts: Vec<Vec<f64>> = shifts.collect();
+    let finer = (0..length).flat_map(|i| shifts.iter().map(move |s| s[i]));
+    let finer: Vec<f64> = finer.collect();
+    time(&finer, coarse, rate).map(|r| r.position / real(FINER))
+}
 
 /// How many samples are looked at, from the first on, for a sound that begins near the sample `coarse`.
 pub(crate) fn length(coarse: usize, sample_rate_hz: f64) -> usize {

@@ -5,7 +5,7 @@ pub(crate) mod average;
 mod wiener;
 
 use super::constant_fraction;
-use super::interpolate::{KERNEL, shifted, slope};
+use super::interpolate::{KERNEL, slope};
 use super::smooth::smoothed;
 use crate::units::real;
 use average::{half_means, mean_variances, sums, weighted_fit, weighted_mean, weights};
@@ -15,8 +15,6 @@ use wiener::Wiener;
 const HEAD_SHARE: f64 = 0.95;
 /// A template counts where its square, or its power around a frequency, exceeds its variance by this factor.
 const CLEAR: f64 = 1.5;
-/// Places for each sample that the onset is sought at: among the samples alone it hangs by a tenth of one on where they lie.
-const FINER: usize = 8;
 
 /// The common sound of a drop's impacts: sample k of each component is `k − before` samples after the onset.
 #[derive(Debug, Clone, Default)]
@@ -102,15 +100,8 @@ impl Template {
     pub(crate) fn onset(&self, rate: f64) -> f64 {
         // As it is heard: a filter reaches before it.
         let heard = &self.heard[0];
-        let (before, rate) = (FINER * self.before, real(FINER) * rate);
-        let length = constant_fraction::length(before, rate).div_ceil(FINER);
-        let length = length.min(heard.len());
-        let shifts = (0..FINER).map(|k| shifted(heard, real(k) / real(FINER), length));
-        let shifts: Vec<Vec<f64>> = shifts.collect();
-        let finer = (0..length).flat_map(|i| shifts.iter().map(move |s| s[i]));
-        let finer: Vec<f64> = finer.collect();
-        let rise = constant_fraction::time(&finer, before, rate);
-        rise.map_or(0.0, |r| r.position / real(FINER) - real(self.before))
+        let begin = constant_fraction::between_samples(heard, self.before, rate);
+        begin.map_or(0.0, |begin| begin - real(self.before))
     }
 
     /// The sound of impact `i` at amplitude 1.

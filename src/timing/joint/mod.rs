@@ -23,6 +23,7 @@
 
 mod align;
 mod alternate;
+mod beginning;
 mod curve;
 mod damping;
 mod interference;
@@ -120,7 +121,8 @@ pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Vec<Im
         return Some(onsets.iter().zip(coarse).map(begins).collect());
     }
     let corrected = time_walk::correct(joint, &aligned);
-    Some(timed(whitened.sound(), coarse, &started, &corrected))
+    let begin = corrected.joint.beginning();
+    Some(timed(whitened.sound(), coarse, &corrected, begin))
 }
 
 /// The same with few jumps and without time walk, or as they are aligned where they are unlike, and their template: by it more
@@ -137,19 +139,21 @@ pub(super) fn sketch(
         joint.settle_whole();
     }
     let corrected = Corrected::without_walk(joint);
-    let timed = timed(whitened.sound(), coarse, &started, &corrected);
+    // As its template is searched for: each by where that begins.
+    let onset = corrected.joint.template.onset(started.rate);
+    let timed = timed(whitened.sound(), coarse, &corrected, onset);
     Some((timed, corrected.joint.template))
 }
 
-/// The impacts with their times and standard errors in seconds of the recording.
+/// The impacts with their times and standard errors in seconds of the recording; their sound begins so many samples after their places.
 fn timed(
     recorded: &Sound<'_>,
     coarse: &[Impact],
-    started: &Started,
     corrected: &Corrected<'_>,
+    onset: f64,
 ) -> Vec<Impact> {
     let (joint, walk) = (&corrected.joint, &corrected.walk);
-    let onset = joint.template.onset(started.rate);
+    let started = joint.started;
     let usual = usual_move(&joint.priors, &joint.places);
     let stds = standard_error::standard_errors(joint);
     let in_recording = |i: usize| {

@@ -265,6 +265,31 @@ fn times_do_not_depend_on_where_the_detector_saw_the_impacts() {
     }
 }
 
+#[test]
+fn where_a_soft_sound_begins_does_not_depend_on_where_the_detector_saw_it() {
+    let thud = Ball {
+        contact_s: 4e-3,
+        hertz: false,
+        modes_hz: [170.0, 430.0],
+        decay_s: 10e-3,
+    };
+    let onsets_s = onsets(14, 0.6, 0.82);
+    let samples = thud.recorded(&onsets_s, 3);
+    for late_s in [-2.5e-3, 0.0, 2.5e-3] {
+        let coarse: Vec<f64> = onsets_s.iter().map(|t| t + late_s).collect();
+        let sound = Whitened::around(
+            Sound::from_start(&samples, RATE),
+            (coarse[0], coarse[coarse.len() - 1]),
+        );
+        let timed = times(&sound, &seen(&coarse)).unwrap();
+        let late = 1e3 * (timed[0].time_s - onsets_s[0]);
+        assert!(
+            (0.0..1.0).contains(&late),
+            "seen {late_s} s late: {late} ms late"
+        );
+    }
+}
+
 /// Times impacts by one template until they rest, and hands them over.
 fn at_rest(ball: &Ball, onsets_s: &[f64], check: impl FnOnce(Joint<'_>)) {
     let samples = ball.recorded(onsets_s, 3);
