@@ -16,8 +16,9 @@ pub fn compared(names: &[String], drops: &[(usize, DropDigest)]) -> Result<Group
         .filter_map(|(g, drop)| member(*g, drop))
         .collect();
     let held = |g: usize| members.iter().filter(|m| m.group == g).count();
-    if names.len() < 2 {
-        return Err("Groups: there is one only, and nothing to compare it with".to_owned());
+    if let [] | [_] = names {
+        let there = if names.is_empty() { "none" } else { "one only" };
+        return Err(format!("Groups: there is {there}, and nothing to compare"));
     }
     if let Some(few) = (0..names.len()).find(|g| held(*g) < 2) {
         return Err(format!(
@@ -215,5 +216,6 @@ mod tests {
         assert!(
             said_of(&names(&["a"]), &drops(&[(0, 0.8), (0, 0.81)])).contains("there is one only")
         );
+        assert!(said_of(&[], &[]).contains("there is none"));
     }
 }
