@@ -1,6 +1,6 @@
 //! Where the sound that all impacts have in common begins, wherever the detector saw them.
 
-use super::alternate::Joint;
+use super::time_walk::Corrected;
 use crate::signal::constant_fraction;
 use crate::signal::interpolate::shifted;
 use crate::signal::template::aligned::{Cut, mean};
@@ -11,14 +11,14 @@ const AROUND_S: f64 = 4e-3;
 /// … with so much sound before and after it, which is more than the constant fraction looks at.
 const LEVEL_S: f64 = 3.5e-3;
 
-impl Joint<'_> {
-    /// Begin of the common sound in samples after the places.
+impl Corrected<'_> {
+    /// Begin of the common sound in samples after the places, corrected for their walk.
     ///
     /// Times and template leave undetermined what all times have in common: it is where the detector saw the loudest impact, off
     /// by milliseconds where a sound rises slowly. The mean of the sounds at their places has all of the rise, and none of the
     /// detector in it.
     pub(super) fn beginning(&self) -> f64 {
-        let rate = self.started.rate;
+        let rate = self.joint.started.rate;
         let (around, level) = (samples_in(AROUND_S, rate), samples_in(LEVEL_S, rate));
         let before = around + level;
         let mean = self.mean_around(before);
@@ -30,21 +30,24 @@ impl Joint<'_> {
     /// Mean of the sounds of the impacts so far either way of their places, the others taken out; of those that stand alone,
     /// if any does.
     fn mean_around(&self, reach: usize) -> Vec<f64> {
-        let flights = &self.started.flights;
+        let (joint, started) = (&self.joint, self.joint.started);
+        let flights = &started.flights;
         let far = |flight: Option<&f64>| flight.is_none_or(|&f| f > real(2 * reach));
         let alone =
             |&i: &usize| far(i.checked_sub(1).and_then(|i| flights.get(i))) && far(flights.get(i));
-        let count = self.places.len();
+        let count = joint.places.len();
         let mut of: Vec<usize> = (0..count).filter(alone).collect();
         if of.is_empty() {
             of = (0..count).collect();
         }
         let cut = |i: usize| {
-            let begin = self.places[i].position - real(reach);
-            let mut sound = shifted(&self.started.sound, begin, 2 * reach);
-            self.take_out_others(i, begin, &mut sound);
+            let place = joint.places[i];
+            let later = self.walk.shift(started.contact_stretches[i]);
+            let begin = place.position + later - real(reach);
+            let mut sound = shifted(&started.sound, begin, 2 * reach);
+            joint.take_out_others(i, begin, &mut sound);
             Cut {
-                amplitude: self.places[i].amplitude,
+                amplitude: place.amplitude,
                 sound,
             }
         };

@@ -121,7 +121,7 @@ pub(super) fn times(whitened: &Whitened<'_>, coarse: &[Impact]) -> Option<Vec<Im
         return Some(onsets.iter().zip(coarse).map(begins).collect());
     }
     let corrected = time_walk::correct(joint, &aligned);
-    let begin = corrected.joint.beginning();
+    let begin = corrected.beginning();
     Some(timed(whitened.sound(), coarse, &corrected, begin))
 }
 
