@@ -10,6 +10,8 @@ use crate::units::{real, samples_in};
 const AROUND_S: f64 = 4e-3;
 /// … with so much sound before and after it, which is more than the constant fraction looks at.
 const LEVEL_S: f64 = 3.5e-3;
+/// Power of the noise that is taken to be there, as a share of that of the sound: what a codec puts before a sound is quieter.
+const AUDIBLE: f64 = 0.01;
 
 impl Corrected<'_> {
     /// Begin of the common sound in samples after the places, corrected for their walk.
@@ -61,13 +63,14 @@ impl Corrected<'_> {
 /// `−n₀·ln σ₀² − n₁·ln σ₁²` is greatest: twice the log-likelihood of normal samples of one variance before, and of a larger one after.
 fn level_change(sound: &[f64], margin: usize) -> usize {
     let total: f64 = sound.iter().map(|x| x * x).sum();
+    let floor = AUDIBLE * total / real(sound.len()) + f64::MIN_POSITIVE;
     let mut before = 0.0;
     let mut best = (f64::NEG_INFINITY, sound.len() / 2);
     for (k, x) in sound.iter().enumerate() {
         let (first, second) = (real(k), real(sound.len() - k));
         let (quiet, loud) = (before / first, (total - before) / second);
         if (margin..=sound.len() - margin).contains(&k) && quiet < loud {
-            let ln = -first * quiet.max(f64::MIN_POSITIVE).ln() - second * loud.ln();
+            let ln = -first * (quiet + floor).ln() - second * (loud + floor).ln();
             if ln > best.0 {
                 best = (ln, k);
             }
