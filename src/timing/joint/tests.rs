@@ -275,18 +275,17 @@ fn where_a_soft_sound_begins_does_not_depend_on_where_the_detector_saw_it() {
     };
     let onsets_s = onsets(14, 0.6, 0.82);
     let samples = thud.recorded(&onsets_s, 3);
-    for late_s in [-2.5e-3, 0.0, 2.5e-3] {
+    let late_ms = [-2.5e-3, 0.0, 2.5e-3].map(|late_s| {
         let coarse: Vec<f64> = onsets_s.iter().map(|t| t + late_s).collect();
-        let sound = Whitened::around(
-            Sound::from_start(&samples, RATE),
-            (coarse[0], coarse[coarse.len() - 1]),
-        );
+        let span_s = (coarse[0], coarse[coarse.len() - 1]);
+        let sound = Whitened::around(Sound::from_start(&samples, RATE), span_s);
         let timed = times(&sound, &seen(&coarse)).unwrap();
-        let late = 1e3 * (timed[0].time_s - onsets_s[0]);
-        assert!(
-            (0.0..1.0).contains(&late),
-            "seen {late_s} s late: {late} ms late"
-        );
+        1e3 * (timed[0].time_s - onsets_s[0])
+    });
+    // It grows as long as the force does, which is half of the contact.
+    for late in late_ms {
+        assert!((0.0..2.0).contains(&late), "{late_ms:?} ms late");
+        assert!((late - late_ms[0]).abs() < 0.05, "{late_ms:?} ms late");
     }
 }
 
