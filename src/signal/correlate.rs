@@ -34,11 +34,7 @@ impl Correlator {
         let length = (TRANSFORM_LENGTHS * b.len())
             .min(a.len())
             .next_power_of_two();
-        let known = self.transforms.iter().position(|t| t.len() == length);
-        let known = known.unwrap_or_else(|| {
-            self.transforms.push(Fourier::of(length));
-            self.transforms.len() - 1
-        });
+        let known = self.transform(length);
         let fourier = &self.transforms[known];
         let spectrum: Vec<_> = fourier.spectrum(b).iter().map(Complex::conj).collect();
         let mut out = Vec::with_capacity(count + 2 * length);
@@ -57,6 +53,22 @@ impl Correlator {
         }
         out.truncate(count);
         Some(out)
+    }
+
+    /// Power of every line of the spectrum of some samples.
+    pub(crate) fn powers(&mut self, samples: &[f64]) -> Vec<f64> {
+        let known = self.transform(samples.len().next_power_of_two());
+        let lines = self.transforms[known].spectrum(samples);
+        lines.iter().map(Complex::norm_sqr).collect()
+    }
+
+    /// Which of the transforms is of this length.
+    fn transform(&mut self, length: usize) -> usize {
+        let known = self.transforms.iter().position(|t| t.len() == length);
+        known.unwrap_or_else(|| {
+            self.transforms.push(Fourier::of(length));
+            self.transforms.len() - 1
+        })
     }
 }
 

@@ -1,5 +1,6 @@
 //! The first alignment: from the loudest impact along the drop, each impact matched with those next to it.
 
+use super::interference::{JUDGED_S, UNKNOWN};
 use super::matched_search::{Search, Window, best_match};
 use super::start::Started;
 use super::{Place, Prior};
@@ -7,7 +8,7 @@ use crate::signal::correlate::Correlator;
 use crate::signal::interpolate::{KERNEL, shifted};
 use crate::signal::template::Template;
 use crate::signal::template::aligned::{Cut, mean};
-use crate::units::real;
+use crate::units::{real, samples_in, whole};
 
 /// Neighbours whose mean an impact is matched with.
 const NEIGHBOURS: usize = 3;
@@ -97,7 +98,7 @@ impl Head {
         let prior = started.priors[i];
         let mut at = |std: f64| {
             let prior = Prior { std, ..prior };
-            Some((prior, self.matched(&started.sound, prior, correlator)?))
+            Some((prior, self.matched(started, i, prior, correlator)?))
         };
         let near = at(prior.std);
         let loud = near.map_or(0.0, |(_, place)| place.amplitude);
@@ -110,19 +111,33 @@ impl Head {
     }
 
     /// The best place near where an impact is expected.
-    fn matched(&self, sound: &[f64], prior: Prior, correlator: &mut Correlator) -> Option<Place> {
+    fn matched(
+        &self,
+        started: &Started,
+        i: usize,
+        prior: Prior,
+        correlator: &mut Correlator,
+    ) -> Option<Place> {
         let (head, before) = (self.template.head, real(self.template.before));
         let reach = prior.reach() + KERNEL;
         let begin = prior.position.round() - before - real(reach);
-        let sound = shifted(sound, begin, head + 2 * reach);
+        let sound = shifted(&started.sound, begin, head + 2 * reach);
+        let mut noise = vec![1.0; sound.len()];
+        // From the next impact on the sound is of both.
+        let next = started
+            .priors
+            .get(i + 1)
+            .map_or(started.next, |next| next.position);
+        let alone = whole(next - before - begin).min(noise.len());
+        noise[alone..].fill(UNKNOWN);
         let window = Window {
-            noise: &vec![1.0; sound.len()],
+            noise: &noise,
             sound: &sound,
         };
         let search = Search {
             prior: prior.from(begin).from(before),
             reach,
-            overdispersion: 1.0,
+            judged: samples_in(JUDGED_S, started.rate),
         };
         let found = best_match(correlator, window, &self.template.mean()[..head], search)?;
         Some(Place {

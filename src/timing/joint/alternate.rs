@@ -117,11 +117,14 @@ impl<'a> Joint<'a> {
         }
         self.learn_whole();
         rivals.tried.iter_mut().for_each(Vec::clear);
-        loop {
+        self.settle();
+        self.jump_and_settle(rivals)
+    }
+
+    /// Goes to better matches and settles there, until there are none. Gives the ambiguity of each.
+    pub(super) fn jump_and_settle(&mut self, mut rivals: Rivals) -> Vec<f64> {
+        while self.jump(&mut rivals) {
             self.settle();
-            if !self.jump(&mut rivals) {
-                break;
-            }
         }
         rivals.ambiguities
     }
@@ -229,7 +232,7 @@ impl<'a> Joint<'a> {
 }
 
 /// What searches know of the rivals of each impact's place.
-struct Rivals {
+pub(super) struct Rivals {
     /// Standard error of each place by rivals that match nearly as well, in samples.
     ambiguities: Vec<f64>,
     /// Places that each impact has left and gone to: it does not come back, or jumps would never end.
@@ -237,7 +240,7 @@ struct Rivals {
 }
 
 impl Rivals {
-    fn of(count: usize) -> Self {
+    pub(super) fn of(count: usize) -> Self {
         Self {
             ambiguities: vec![0.0; count],
             tried: vec![Vec::new(); count],

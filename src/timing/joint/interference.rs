@@ -8,10 +8,10 @@ use crate::units::{real, samples_in, whole};
 
 /// The power that is left is judged over this time either way, in seconds, and stands out by about this factor: of the few
 /// independent values in that time the mean is seldom twice too large by chance.
-const JUDGED_S: f64 = 1e-3;
+pub(super) const JUDGED_S: f64 = 1e-3;
 const STANDS_OUT: f64 = 4.0;
 /// Variance of samples that were not recorded.
-const UNKNOWN: f64 = 1e30;
+pub(super) const UNKNOWN: f64 = 1e30;
 
 impl Joint<'_> {
     /// Weights of the samples of an impact: 1 where the residual is as large as it should be, less where it is larger.

@@ -26,6 +26,7 @@ mod alternate;
 mod beginning;
 mod curve;
 mod damping;
+mod independence;
 mod interference;
 mod leading_edge;
 mod matched_search;
@@ -163,14 +164,14 @@ fn timed(
             corrected.ambiguities[i],
         );
         let (position, std) = match stds[i] {
-            Some(std) if ambiguity <= prior.std => {
+            Some(std) => {
                 let position = joint.places[i].position + walk.shift(contact_stretch);
                 (
                     position,
                     std.hypot(walk.std(contact_stretch)).hypot(ambiguity),
                 )
             }
-            // An impact unlike the others, or one whose rival places lie farther apart than the detector errs.
+            // An impact unlike the others.
             _ => (prior.position + usual, prior.std),
         };
         Impact {

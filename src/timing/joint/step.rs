@@ -1,19 +1,20 @@
 //! One impact: its best match by a search, and one step of least squares towards it.
 
 use super::alternate::Joint;
+use super::interference::JUDGED_S;
 use super::matched_search::{Search, Window, best_match};
 use super::normal_equations::NormalEquations;
 use super::{Place, Prior};
 use crate::signal::interpolate::{KERNEL, shifted};
 use crate::signal::template::Sample;
-use crate::units::real;
+use crate::units::{real, samples_in};
 
 /// Farthest that a match moves in one step, in samples. Derived: beyond a sample the expansion in time does not hold.
 const STEP: f64 = 1.0;
 /// Least share that an amplitude falls to in one step, so that it never vanishes or changes its sign.
 const LEAST_AMPLITUDE: f64 = 0.1;
 /// Degrees of freedom of a prior (convention: as robust regression has them): what the detector saw may be another sound.
-const FREEDOM: f64 = 3.0;
+pub(super) const FREEDOM: f64 = 3.0;
 
 /// A step of one impact.
 #[derive(Debug)]
@@ -50,7 +51,7 @@ impl Joint<'_> {
         let search = Search {
             prior: prior.from(begin).from(before),
             reach,
-            overdispersion: self.overdispersions[i].max(1.0),
+            judged: samples_in(JUDGED_S, self.started.rate),
         };
         let shape = &self.template.shape(i)[..head];
         let found = best_match(&mut self.correlator, window, shape, search)?;

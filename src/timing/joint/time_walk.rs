@@ -1,7 +1,7 @@
 //! Time walk: slow impacts have longer contacts, so their sounds match the common template late; their leading edges do not.
 
 use super::align::Aligned;
-use super::alternate::Joint;
+use super::alternate::{Joint, Rivals};
 use super::curve::{Curve, greatest_in_std};
 use super::start::Started;
 use super::walk_by_edges::walk_by_edges;
@@ -94,27 +94,20 @@ pub(super) fn correct<'a>(mut joint: Joint<'a>, aligned: &Aligned) -> Corrected<
     let started = joint.started;
     let hinted = walk(&joint, HINT).is_some();
     let early = hinted.then(|| with_walk(started, aligned)).flatten();
-    let corrected = |(joint, walk): (Joint<'a>, TimeWalk)| Corrected {
-        walk,
-        ..Corrected::without_walk(joint)
-    };
     if let Some(early) = early {
-        return corrected(early);
+        return early;
     }
     let ambiguities = joint.search_and_settle();
     let late = (!hinted && walk(&joint, HINT).is_some()).then(|| with_walk(started, aligned));
-    late.flatten().map_or_else(
-        || Corrected {
-            joint,
-            walk: TimeWalk::default(),
-            ambiguities,
-        },
-        corrected,
-    )
+    late.flatten().unwrap_or_else(|| Corrected {
+        joint,
+        walk: TimeWalk::default(),
+        ambiguities,
+    })
 }
 
 /// The impacts refined by a template that depends on the contact stretch, and their time walk; none if it is not significant.
-fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, TimeWalk)> {
+fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<Corrected<'a>> {
     let count = aligned.places.len();
     if count < FEWEST {
         return None;
@@ -125,8 +118,14 @@ fn with_walk<'a>(started: &'a Started, aligned: &Aligned) -> Option<(Joint<'a>, 
     // Without jumps: they would go to where a wrong shape fits, before impacts of all speeds have taught it. And no longer than
     // the walk is hinted at: rings that overlap look like one at first, and wander for long.
     joint.settle_while(|joint| walk(joint, HINT).is_some());
+    walk(&joint, SIGNIFICANT)?;
+    let ambiguities = joint.jump_and_settle(Rivals::of(count));
     let walk = walk(&joint, SIGNIFICANT)?;
-    Some((joint, walk))
+    Some(Corrected {
+        joint,
+        walk,
+        ambiguities,
+    })
 }
 
 /// The time walk, if slow impacts match late by so many standard errors by their leading edges.
