@@ -9,8 +9,8 @@ use crate::units::real;
 ///
 /// # Formula
 /// `(tr C)²/tr C²` for a covariance `C_tu = σ_t·σ_u·ρ(t − u)`: `(Σ σ²)²/Σ σ⁴` by the mean power σ² up to `reach` samples around
-/// each, over `Σ ρ²`, by the powers P of the N lines of the spectrum of r/σ: `N·Σ P²/(Σ P)² − 1`, where the 1 is what powers scatter
-/// by if samples are independent.
+/// each, over `Σ ρ²`, by the powers P of the N lines of the spectrum `N·Σ P²/(Σ P)² − 1`, where the 1 is what powers scatter by if
+/// samples are independent. Of a burst or a ring it is the duration times the bandwidth.
 pub(super) fn independent_samples(
     correlator: &mut Correlator,
     residual: &[f64],
@@ -18,9 +18,7 @@ pub(super) fn independent_samples(
 ) -> f64 {
     let squares: Vec<f64> = residual.iter().map(|r| r * r).collect();
     let powers = smoothed(&squares, reach);
-    let level = residual.iter().zip(&powers);
-    let level = level.map(|(r, p)| r / p.max(f64::MIN_POSITIVE).sqrt());
-    let lines = correlator.powers(&level.collect::<Vec<f64>>());
+    let lines = correlator.powers(residual);
     let correlated = real(lines.len()) / participation(&lines) - 1.0;
     (participation(&powers) / correlated.max(1.0)).max(1.0)
 }
