@@ -131,11 +131,10 @@ const OUTSIDE: [&str; 12] = [
 ];
 
 /// Crates that a feature brings, and who may name them: the core is without.
-const OPTIONAL: [(&str, &[&str]); 13] = [
+const OPTIONAL: [(&str, &[&str]); 12] = [
     ("hound", &["audio"]),
     ("opus_pure", &["audio"]),
     ("symphonia", &["audio"]),
-    ("ab_glyph", &["plot"]),
     ("plotters", &["plot"]),
     ("plotters_backend", &["plot"]),
     ("png", &["plot"]),

@@ -23,6 +23,7 @@ mod layers;
 mod marks;
 mod style;
 mod vector;
+mod widths;
 
 pub use axis::Axis;
 #[cfg(not(target_arch = "wasm32"))]

@@ -62,6 +62,7 @@ pub(super) const CROSS_PX: u32 = 3;
 pub(super) const PALE: f64 = 0.35;
 
 /// The bundled font.
+#[cfg(not(target_arch = "wasm32"))]
 pub(super) const FONT_FILE: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-subset.ttf");
 
 #[cfg(not(target_arch = "wasm32"))]

@@ -3,14 +3,14 @@
 //! `plotters` measures texts itself, in a browser by elements of the page, of which a worker has none. Measured here, a
 //! picture is the same to the byte on every machine.
 
-use ab_glyph::{Font, FontRef, ScaleFont};
 use plotters::backend::SVGBackend;
 use plotters::drawing::IntoDrawingArea;
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
 };
 
-use super::{Figure, draw, style};
+use super::widths::width_px;
+use super::{Figure, draw};
 use crate::Error;
 
 /// The SVG is drawn this much larger and shown smaller: its coordinates are whole numbers, on which a curve of the final
@@ -29,11 +29,8 @@ pub fn to_svg(figure: &Figure) -> Result<String, Error> {
     let (width, height) = (size.0 * FINENESS, size.1 * FINENESS);
     let mut document = String::new();
     {
-        let vector = Vector {
-            svg: SVGBackend::with_string(&mut document, (width, height)),
-            font: FontRef::try_from_slice(style::FONT_FILE).map_err(|e| draw::problem(&e))?,
-        };
-        let area = vector.into_drawing_area();
+        let svg = SVGBackend::with_string(&mut document, (width, height));
+        let area = Vector(svg).into_drawing_area();
         draw::figure(figure, &area, FINENESS)?;
         area.present().map_err(|e| draw::problem(&e))?;
     }
@@ -44,10 +41,7 @@ pub fn to_svg(figure: &Figure) -> Result<String, Error> {
 }
 
 /// An SVG document that knows how wide its texts are.
-struct Vector<'a> {
-    svg: SVGBackend<'a>,
-    font: FontRef<'static>,
-}
+struct Vector<'a>(SVGBackend<'a>);
 
 type Problem<'a> = DrawingErrorKind<<SVGBackend<'a> as DrawingBackend>::ErrorType>;
 type Outcome<'a> = Result<(), Problem<'a>>;
@@ -56,19 +50,19 @@ impl<'a> DrawingBackend for Vector<'a> {
     type ErrorType = <SVGBackend<'a> as DrawingBackend>::ErrorType;
 
     fn get_size(&self) -> (u32, u32) {
-        self.svg.get_size()
+        self.0.get_size()
     }
 
     fn ensure_prepared(&mut self) -> Outcome<'a> {
-        self.svg.ensure_prepared()
+        self.0.ensure_prepared()
     }
 
     fn present(&mut self) -> Outcome<'a> {
-        self.svg.present()
+        self.0.present()
     }
 
     fn draw_pixel(&mut self, point: BackendCoord, color: BackendColor) -> Outcome<'a> {
-        self.svg.draw_pixel(point, color)
+        self.0.draw_pixel(point, color)
     }
 
     fn draw_line<S: BackendStyle>(
@@ -77,7 +71,7 @@ impl<'a> DrawingBackend for Vector<'a> {
         to: BackendCoord,
         style: &S,
     ) -> Outcome<'a> {
-        self.svg.draw_line(from, to, style)
+        self.0.draw_line(from, to, style)
     }
 
     fn draw_rect<S: BackendStyle>(
@@ -87,7 +81,7 @@ impl<'a> DrawingBackend for Vector<'a> {
         style: &S,
         fill: bool,
     ) -> Outcome<'a> {
-        self.svg.draw_rect(upper_left, bottom_right, style, fill)
+        self.0.draw_rect(upper_left, bottom_right, style, fill)
     }
 
     fn draw_path<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
@@ -95,7 +89,7 @@ impl<'a> DrawingBackend for Vector<'a> {
         path: I,
         style: &S,
     ) -> Outcome<'a> {
-        self.svg.draw_path(path, style)
+        self.0.draw_path(path, style)
     }
 
     fn draw_circle<S: BackendStyle>(
@@ -105,7 +99,7 @@ impl<'a> DrawingBackend for Vector<'a> {
         style: &S,
         fill: bool,
     ) -> Outcome<'a> {
-        self.svg.draw_circle(centre, radius, style, fill)
+        self.0.draw_circle(centre, radius, style, fill)
     }
 
     fn fill_polygon<S: BackendStyle, I: IntoIterator<Item = BackendCoord>>(
@@ -113,7 +107,7 @@ impl<'a> DrawingBackend for Vector<'a> {
         corners: I,
         style: &S,
     ) -> Outcome<'a> {
-        self.svg.fill_polygon(corners, style)
+        self.0.fill_polygon(corners, style)
     }
 
     fn draw_text<S: BackendTextStyle>(
@@ -122,7 +116,7 @@ impl<'a> DrawingBackend for Vector<'a> {
         style: &S,
         at: BackendCoord,
     ) -> Outcome<'a> {
-        self.svg.draw_text(text, style, at)
+        self.0.draw_text(text, style, at)
     }
 
     fn estimate_text_size<S: BackendTextStyle>(
@@ -130,7 +124,7 @@ impl<'a> DrawingBackend for Vector<'a> {
         text: &str,
         style: &S,
     ) -> Result<(u32, u32), Problem<'a>> {
-        Ok(measured(&self.font, text, style.size()))
+        Ok(measured(text, style.size()))
     }
 }
 
@@ -140,16 +134,8 @@ impl<'a> DrawingBackend for Vector<'a> {
     clippy::cast_sign_loss,
     reason = "`as` saturates, and texts are small"
 )]
-fn measured(font: &FontRef<'_>, text: &str, size: f64) -> (u32, u32) {
-    let font = font.as_scaled(size as f32);
-    let mut width = 0.0_f32;
-    let mut before = None;
-    for glyph in text.chars().map(|c| font.glyph_id(c)) {
-        width += font.h_advance(glyph);
-        width += before.map_or(0.0, |before| font.kern(before, glyph));
-        before = Some(glyph);
-    }
-    (width as u32, (size / EM) as u32)
+fn measured(text: &str, size: f64) -> (u32, u32) {
+    (width_px(text, size) as u32, (size / EM) as u32)
 }
 
 #[cfg(test)]
@@ -157,11 +143,17 @@ mod tests {
     use plotters::style::{FontFamily, FontStyle, TextStyle};
 
     use super::*;
+    use crate::plot::style;
+
+    fn assert_as_plotters(text: &str, size: f64) {
+        let style = TextStyle::from((FontFamily::Name(style::FONT), size, FontStyle::Normal));
+        let theirs = style.font.box_size(text).unwrap();
+        assert_eq!(measured(text, size), theirs, "{text} at {size}");
+    }
 
     #[test]
     fn texts_measure_what_plotters_says() {
         style::register().unwrap();
-        let font = FontRef::try_from_slice(style::FONT_FILE).unwrap();
         for text in [
             "",
             "e = 0.929",
@@ -170,11 +162,17 @@ mod tests {
             "Δt ± 10⁻⁶ µs",
         ] {
             for size in [14.0, 141.0, 176.0, 240.0] {
-                let style =
-                    TextStyle::from((FontFamily::Name(style::FONT), size, FontStyle::Normal));
-                let theirs = style.font.box_size(text).unwrap();
-                assert_eq!(measured(&font, text, size), theirs, "{text} at {size}");
+                assert_as_plotters(text, size);
             }
+        }
+    }
+
+    /// At this size a pixel is a unit of the font.
+    #[test]
+    fn every_character_is_as_wide_as_in_the_font() {
+        style::register().unwrap();
+        for character in '\0'..='\u{ffff}' {
+            assert_as_plotters(&character.to_string(), 2384.0);
         }
     }
 }
