@@ -1,7 +1,5 @@
 //! What a detector gives a tracker.
 
-use std::cmp::Ordering;
-
 /// A moment at which something may have struck.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
@@ -18,13 +16,6 @@ pub struct Event {
     pub loudness: f64,
     /// How its evidence is spread over the bands.
     pub profile: Profile,
-}
-
-impl Event {
-    /// Events in the order of their times.
-    pub(crate) fn order(a: &Self, b: &Self) -> Ordering {
-        a.time_s.total_cmp(&b.time_s)
-    }
 }
 
 /// Bands that a profile holds: the octaves from 40 Hz to half of a rate of 192 kHz, and one more.

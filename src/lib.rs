@@ -97,6 +97,7 @@ mod stages {
     pub mod event;
     pub mod fit;
     pub mod impact;
+    pub(crate) mod order;
     #[cfg(feature = "plots")]
     pub mod plot;
     pub mod random;

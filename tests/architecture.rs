@@ -9,26 +9,28 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// All of src, from the bottom up, and what each may name: only what stands above its own line.
-const MAY_NAME: [(&str, &[&str]); 28] = [
+const MAY_NAME: [(&str, &[&str]); 29] = [
     ("error.rs", &[]),
     ("words.rs", &[]),
     ("units", &[]),
     ("random.rs", &[]),
+    ("order.rs", &[]),
     ("workers.rs", &[]),
     ("event.rs", &[]),
     ("impact.rs", &["words"]),
     ("linalg.rs", &["units"]),
     ("statistics.rs", &["units"]),
     ("physics", &["units", "random"]),
-    ("signal", &["units", "linalg"]),
+    ("signal", &["units", "order", "linalg"]),
     (
         "detect",
-        &["units", "statistics", "event", "linalg", "signal"],
+        &["units", "order", "statistics", "event", "linalg", "signal"],
     ),
     (
         "sequence",
         &[
             "units",
+            "order",
             "statistics",
             "event",
             "impact",
@@ -38,12 +40,21 @@ const MAY_NAME: [(&str, &[&str]); 28] = [
     ),
     (
         "timing",
-        &["units", "statistics", "linalg", "words", "impact", "signal"],
+        &[
+            "units",
+            "order",
+            "statistics",
+            "linalg",
+            "words",
+            "impact",
+            "signal",
+        ],
     ),
     (
         "fit",
         &[
             "units",
+            "order",
             "statistics",
             "linalg",
             "words",
@@ -51,7 +62,12 @@ const MAY_NAME: [(&str, &[&str]); 28] = [
             "physics",
         ],
     ),
-    ("report", &["words", "impact", "physics", "timing", "fit"]),
+    (
+        "report",
+        &[
+            "units", "order", "words", "impact", "physics", "timing", "fit",
+        ],
+    ),
     (
         "rules",
         &["units", "statistics", "physics", "fit", "report"],
@@ -61,6 +77,7 @@ const MAY_NAME: [(&str, &[&str]); 28] = [
         "analysis",
         &[
             "units",
+            "order",
             "statistics",
             "event",
             "impact",
@@ -82,7 +99,7 @@ const MAY_NAME: [(&str, &[&str]); 28] = [
     ("plot", &[]),
     (
         "picture",
-        &["units", "statistics", "physics", "report", "plot"],
+        &["units", "order", "statistics", "physics", "report", "plot"],
     ),
     ("synth", &["units", "random", "physics"]),
     (

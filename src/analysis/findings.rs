@@ -7,6 +7,7 @@ use super::few;
 use super::scene::{SceneResult, clearest, is_known};
 use super::warnings::{self, Sounds};
 use crate::Error;
+use crate::order::sort_by_number;
 use crate::report::{self, Analysis, Rejected};
 use crate::sequence::NAMED;
 
@@ -83,7 +84,7 @@ impl Findings {
 
     fn keep_the_strongest(&mut self) {
         if self.rejected.len() > NAMED {
-            self.rejected.sort_by(|a, b| b.0.total_cmp(&a.0));
+            sort_by_number(&mut self.rejected, |(strength, _)| -strength);
             self.weak += self.rejected.len() - NAMED;
             self.rejected.truncate(NAMED);
         }
@@ -99,8 +100,7 @@ impl Findings {
         settings: &Settings,
     ) -> Result<(usize, Analysis), Error> {
         let channel = extent.first_channel + self.channel();
-        self.rejected
-            .sort_by(|a, b| a.1.time_s.total_cmp(&b.1.time_s));
+        sort_by_number(&mut self.rejected, |(_, rejected)| rejected.time_s);
         let mut warnings = Vec::new();
         let candidate = self.candidate();
         if self.drops.is_empty() {

@@ -8,6 +8,7 @@ use super::{Settings, few, louder_before, rejected};
 use crate::Error;
 use crate::detect::{Detector, clarity};
 use crate::event::Event;
+use crate::order::sort_by_number;
 use crate::report::Rejected;
 use crate::sequence::{self, Chain, Found, is_echo_of};
 use crate::signal::sound::Sound;
@@ -165,14 +166,14 @@ impl<'a> Chained<'a> {
 /// Chains with their ends, in order of time, but for those that turn out to be the echo of another.
 fn followed<'a>(stretch: &Stretch<'a>, chains: Vec<Chain>, workers: Workers) -> Vec<Followed<'a>> {
     let mut followed = workers.map(chains, |chain| tail::follow(stretch, chain));
-    followed.sort_by(|a, b| b.chain.evidence().total_cmp(&a.chain.evidence()));
+    sort_by_number(&mut followed, |f| -f.chain.evidence());
     let mut kept: Vec<Followed<'a>> = Vec::new();
     for new in followed {
         if !kept.iter().any(|k| is_echo_of(&new.chain, &k.chain)) {
             kept.push(new);
         }
     }
-    kept.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
+    sort_by_number(&mut kept, |f| f.chain.span_s().0);
     kept
 }
 

@@ -6,6 +6,7 @@
 use super::pursuit::Residue;
 use crate::event::{Event, Profile};
 use crate::linalg::dot;
+use crate::order::sort_by_number;
 use crate::signal::template::Template;
 use crate::signal::whiten::Whitened;
 use crate::units::{real, samples_in};
@@ -65,7 +66,7 @@ pub fn events(
             profile: Profile::default(),
         })
         .collect();
-    found.sort_by(Event::order);
+    sort_by_number(&mut found, |event: &Event| event.time_s);
     Some(found)
 }
 

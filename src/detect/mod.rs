@@ -18,6 +18,7 @@ use std::ops::Range;
 
 use crate::Error;
 use crate::event::Event;
+use crate::order::sort_by_number;
 use crate::signal::filterbank::Filterbank;
 use crate::signal::sound::{Sound, loudest};
 use crate::statistics::sorted;
@@ -92,7 +93,7 @@ impl Detector {
             self.add_events(&segment, inside, &mut found);
         }
         // The sound of a peak may begin before that of the peak before it.
-        found.sort_by(Event::order);
+        sort_by_number(&mut found, |event| event.time_s);
         found
     }
 

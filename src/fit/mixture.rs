@@ -6,6 +6,7 @@ use super::fitted::Fitted;
 use super::model::{Budget, Parameter};
 use super::model_kind::ModelKind;
 use super::posterior::{HALVINGS, Part, RANGE_STDS};
+use crate::order::sort_by_number;
 use crate::statistics::bisected;
 
 /// Parts that together have less than this share of the weight are left out of an interval.
@@ -86,7 +87,7 @@ impl Mixture {
     /// Without the lightest, the weights together 1.
     fn normalised(mut components: Vec<Component>) -> Self {
         let total: f64 = components.iter().map(|c| c.weight).sum();
-        components.sort_by(|a, b| b.weight.total_cmp(&a.weight));
+        sort_by_number(&mut components, |component| -component.weight);
         let mut left = total;
         components.retain(|c| {
             let kept = left > NEGLIGIBLE * total;

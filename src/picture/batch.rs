@@ -4,6 +4,7 @@ use std::collections::HashSet;
 
 use super::names::Names;
 use super::{around, at_least, printable};
+use crate::order::sort_by_number;
 use crate::plot::{
     Axis, Band, Colour, Curve, Dots, Figure, Layer, Note, Panel, Row, Shape, Side, Stroke,
 };
@@ -114,8 +115,7 @@ fn value(row: &BatchRow) -> Option<f64> {
 fn ordered(rows: &[BatchRow], order: Order) -> Vec<&BatchRow> {
     let mut rows: Vec<&BatchRow> = rows.iter().collect();
     if order == Order::Restitution {
-        let place = |row: &BatchRow| value(row).unwrap_or(f64::NEG_INFINITY);
-        rows.sort_by(|a, b| place(b).total_cmp(&place(a)));
+        sort_by_number(&mut rows, |row| -value(row).unwrap_or(f64::NEG_INFINITY));
     }
     rows
 }

@@ -1,9 +1,11 @@
 //! The level over time, with impacts and rejected sounds.
 
 use super::sound::Sound;
+use crate::order::sort_by_number;
 use crate::plot::{Axis, Band, Colour, Dots, Layer, Note, Panel, Shape, Side};
 use crate::report::{Drop, Report, Status};
 use crate::statistics::sorted;
+use crate::units::real;
 
 /// Levels shown below the ordinary one, in dB.
 const BELOW_DB: f64 = 6.0;
@@ -100,11 +102,12 @@ fn least_db(drop: Option<&Drop>, sound: &Sound) -> f64 {
 fn numbers(drop: Option<&Drop>, at_db: f64) -> Vec<Note> {
     let count = drop.map_or(0, |d| d.impacts.len());
     let mut order: Vec<usize> = (1..=count).collect();
-    order.sort_by_key(|&n| {
-        let ends = n == 1 || n == count;
+    sort_by_number(&mut order, |&n| {
         let steps = [100, 50, 20, 10, 5, 2, 1];
-        let roundness = steps.iter().position(|step| n % step == 0);
-        (!ends, roundness, n)
+        let is_end = n == 1 || n == count;
+        let ends_first = if is_end { -real(steps.len()) } else { 0.0 };
+        let roundest_first = steps.iter().position(|step| n % step == 0);
+        ends_first + roundest_first.map_or(0.0, real)
     });
     let impacts = drop.map_or(&[][..], |d| &d.impacts);
     let note = |n: usize| Note {

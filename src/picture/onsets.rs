@@ -2,6 +2,7 @@
 
 use super::around;
 use super::sound::Onset;
+use crate::order::sort_by_number;
 use crate::plot::{Axis, Band, Colour, Curve, Layer, Panel, Stroke};
 use crate::report::{Drop, short_decimals};
 
@@ -76,7 +77,7 @@ fn thinned(points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
         let by_size = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
         let ends = [part.iter().min_by(by_size), part.iter().max_by(by_size)];
         let mut ends: Vec<(f64, f64)> = ends.into_iter().flatten().copied().collect();
-        ends.sort_by(|a, b| a.0.total_cmp(&b.0));
+        sort_by_number(&mut ends, |(x, _)| *x);
         ends
     });
     extremes.collect()

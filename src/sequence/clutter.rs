@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 
 use super::Event;
 use super::marks::{KERNEL_REACH, Kind, LOUDNESS_AT_LARGE, LOUDNESS_OF_ANOTHER};
+use crate::order::sort_by_number;
 use crate::units::real;
 
 /// Surroundings of an event, in seconds each way, in which a scene changes little, and in which a sound still rings.
@@ -46,7 +47,7 @@ impl<'a> Clutter<'a> {
     #[must_use]
     pub fn new(events: &'a [Event]) -> Self {
         let mut by_loudness: Vec<usize> = (0..events.len()).collect();
-        by_loudness.sort_by(|&a, &b| events[a].loudness.total_cmp(&events[b].loudness));
+        sort_by_number(&mut by_loudness, |&i| events[i].loudness);
         let (first, last) = (events.first(), events.last());
         let duration_s = last.map_or(0.0, |e| e.time_s) - first.map_or(0.0, |e| e.time_s);
         Self {

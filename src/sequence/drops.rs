@@ -9,6 +9,7 @@ use super::seeds::seeds;
 use super::shape::Shrinkage;
 use super::together::together;
 use super::track::{Scene, Step, follow};
+use crate::order::sort_by_number;
 use crate::units::real;
 
 /// What was found among the events.
@@ -67,7 +68,7 @@ pub fn find(events: &[Event]) -> Found {
             drops.push(track);
         }
     };
-    drops.sort_by(|a, b| a.chain.span_s().0.total_cmp(&b.chain.span_s().0));
+    sort_by_number(&mut drops, |track| track.chain.span_s().0);
     Found {
         candidate,
         ..reasons::explain(&scene, drops, &taken)
@@ -104,8 +105,8 @@ fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> (Vec<Track>, O
 /// what is left of them beside it have more than they alone. What is left of them stands in the way of others, and is followed
 /// anew among the events that are left.
 fn apart(mut tracks: Vec<Track>, known: &[Track]) -> Vec<Track> {
-    let by_evidence = |a: &Track, b: &Track| b.chain.evidence().total_cmp(&a.chain.evidence());
-    tracks.sort_by(by_evidence);
+    let most_evidence_first = |track: &Track| -track.chain.evidence();
+    sort_by_number(&mut tracks, most_evidence_first);
     let (mut found, mut left): (Vec<Track>, Vec<Track>) = (Vec::new(), Vec::new());
     for track in tracks {
         let mut before = known.iter().chain(&found);
@@ -126,7 +127,7 @@ fn apart(mut tracks: Vec<Track>, known: &[Track]) -> Vec<Track> {
             found.push(track);
         }
     }
-    found.sort_by(by_evidence);
+    sort_by_number(&mut found, most_evidence_first);
     found
 }
 

@@ -6,6 +6,7 @@ use super::marks::{ln_likeness, ln_loudness_density};
 use super::track::{Scene, Step, chance};
 use super::{LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
 use crate::event::Profile;
+use crate::order::sort_by_number;
 
 /// A hypothesis is given up so many nats below the best.
 const HOPELESS: f64 = 12.0;
@@ -92,7 +93,7 @@ impl<'s, 'r, 'e> Extension<'s, 'r, 'e> {
             for hypothesis in &beam {
                 self.go_on(hypothesis, &mut next);
             }
-            next.sort_by(|a: &Hypothesis, b| b.score.total_cmp(&a.score));
+            sort_by_number(&mut next, |hypothesis: &Hypothesis| -hypothesis.score);
             beam.clear();
             for hypothesis in next.drain(..) {
                 let hopeless = hypothesis.score < best.score - HOPELESS;

@@ -3,6 +3,7 @@
 use super::chain::{Chain, Track};
 use super::drops::{Found, reject};
 use super::track::Scene;
+use crate::order::sort_by_number;
 use crate::statistics::upper_median;
 use crate::units::real;
 
@@ -157,11 +158,7 @@ pub(super) fn explain(scene: &Scene<'_>, mut drops: Vec<Track>, taken: &[bool]) 
     let mut outside: Vec<usize> = (0..taken.len())
         .filter(|&i| !taken[i] && !named[i])
         .collect();
-    outside.sort_by(|&a, &b| {
-        scene.events[b]
-            .strength
-            .total_cmp(&scene.events[a].strength)
-    });
+    sort_by_number(&mut outside, |&i| -scene.events[i].strength);
     outside.truncate(NAMED);
     outside.sort_unstable();
     let rejected = outside

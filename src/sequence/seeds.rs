@@ -1,11 +1,10 @@
 //! Three events from which a drop may be followed.
 
-use std::cmp::Ordering;
-
 use super::flight::{Doubt, FlightLaw};
 use super::marks::ln_sounds;
 use super::track::Scene;
 use super::{Event, LONGEST_FLIGHT_S, SHORTEST_FLIGHT_S};
+use crate::order::sort_by_number;
 use crate::physics::priors::LN_RESTITUTION;
 
 /// The strongest events within this many seconds …
@@ -46,17 +45,17 @@ pub fn seeds(scene: &Scene<'_>) -> Vec<[usize; 3]> {
         triples_around(scene, &initiators, place, &mut second);
     }
     keep_best(&mut second, &mut found);
-    found.sort_by(best_first);
+    best_first(&mut found);
     found.into_iter().map(|(_, seed)| seed).collect()
 }
 
 fn keep_best(second: &mut Vec<Scored>, found: &mut Vec<Scored>) {
-    second.sort_by(best_first);
+    best_first(second);
     found.extend(second.drain(..).take(SEEDS_PER_S));
 }
 
-fn best_first(a: &Scored, b: &Scored) -> Ordering {
-    b.0.total_cmp(&a.0)
+fn best_first(scored: &mut [Scored]) {
+    sort_by_number(scored, |(score, _)| -score);
 }
 
 /// An event that may start a chain.

@@ -3,6 +3,7 @@
 use super::interpolate::correlated;
 use super::sound::{Sound, heard, loudest};
 use crate::linalg::{Cholesky, dot};
+use crate::order::sort_by_number;
 use crate::units::{real, samples_in, whole};
 
 /// Coefficients of the predictor: enough to flatten the slope of a room's noise and the hum below it.
@@ -143,7 +144,7 @@ fn quiet_frames<'a>(sound: &Sound<'a>, span_s: (f64, f64)) -> (Vec<&'a [f32]>, f
         .map(|f| (energy(f), f))
         .filter(|(e, _)| *e > 0.0)
         .collect();
-    frames.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut frames, |(energy, _)| *energy);
     let keep = whole(QUIET_SHARE * real(frames.len()))
         .max(4)
         .min(frames.len());

@@ -2,6 +2,7 @@
 
 use crate::detect::Detector;
 use crate::event::{Event, Profile};
+use crate::order::sort_by_number;
 use crate::sequence::few::ClearSound;
 use crate::signal::filterbank::Band;
 use crate::signal::sound::Sound;
@@ -46,7 +47,7 @@ pub(super) fn clear_sounds(
         .into_iter()
         .filter_map(|e| spectrum.sound(e))
         .collect();
-    heard.sort_by(|a, b| b.level.total_cmp(&a.level));
+    sort_by_number(&mut heard, |sound: &ClearSound| -sound.level);
     let mut clear: Vec<ClearSound> = Vec::new();
     for sound in heard {
         let near = |louder: &ClearSound| (0.0..OWN_S).contains(&(sound.time_s - louder.time_s));
@@ -54,7 +55,7 @@ pub(super) fn clear_sounds(
             clear.push(sound);
         }
     }
-    clear.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+    sort_by_number(&mut clear, |sound| sound.time_s);
     clear
 }
 

@@ -6,6 +6,7 @@ mod weighted;
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::{Estimate, student};
+use crate::order::sort_by_number;
 use crate::physics::priors::SPEED_EXPONENT_BEYOND;
 use crate::units::real;
 use weighted::{Fit, Sums};
@@ -344,7 +345,7 @@ fn between_groups(means: &[Mean]) -> f64 {
 /// and errors, which Tukey's does not.
 fn corrected(mut differences: Vec<Difference>) -> Vec<Difference> {
     let mut order: Vec<usize> = (0..differences.len()).collect();
-    order.sort_by(|a, b| differences[*a].chance.total_cmp(&differences[*b].chance));
+    sort_by_number(&mut order, |&i| differences[i].chance);
     let mut most = 0.0_f64;
     for (k, index) in order.iter().enumerate() {
         let fold = real(differences.len() - k);

@@ -2,6 +2,7 @@
 
 use super::{Form, Label};
 use crate::Error;
+use crate::order::sort_by_number;
 use crate::report::{Impact, Status};
 
 /// An impact that a label stands for.
@@ -33,7 +34,7 @@ pub(super) fn labels(drops: &[&[Impact]]) -> Vec<(f64, String)> {
             labels.push((impact.time_s, format!("{number} {}", text(impact))));
         }
     }
-    labels.sort_by(|a, b| a.0.total_cmp(&b.0));
+    sort_by_number(&mut labels, |(time_s, _)| *time_s);
     labels
 }
 
@@ -147,7 +148,7 @@ pub fn drops(labels: &[Label], form: Form, by_hand_s: f64) -> Result<Vec<Vec<Mar
         drops.entry(drop).or_default().push(impact);
     }
     for impacts in drops.values_mut() {
-        impacts.sort_by(|a, b| a.time_s.total_cmp(&b.time_s));
+        sort_by_number(impacts, |impact| impact.time_s);
         if let Some(pair) = impacts.windows(2).find(|p| p[0].time_s >= p[1].time_s) {
             return Err(Error::Line {
                 line: pair[1].line,
@@ -159,6 +160,6 @@ pub fn drops(labels: &[Label], form: Form, by_hand_s: f64) -> Result<Vec<Vec<Mar
         }
     }
     let mut drops: Vec<Vec<Marked>> = drops.into_values().collect();
-    drops.sort_by(|a, b| a[0].time_s.total_cmp(&b[0].time_s));
+    sort_by_number(&mut drops, |impacts| impacts[0].time_s);
     Ok(drops)
 }

@@ -3,6 +3,7 @@
 use super::models::{model, rivals};
 use super::{entry, line};
 use crate::fit::model::Budget;
+use crate::order::sort_by_number;
 use crate::report::numbers::{digits_for, with_error};
 use crate::report::{Ball, Drop, Estimates, release};
 
@@ -83,7 +84,7 @@ fn causes(budget: &Budget) -> String {
         ("few bounces to judge the scatter by", budget.noise_sizes),
         ("which model is right", budget.model),
     ];
-    causes.sort_by(|a, b| b.1.total_cmp(&a.1));
+    sort_by_number(&mut causes, |(_, share)| -share);
     let named = causes.iter().filter(|(_, share)| *share >= 0.01);
     let parts: Vec<String> = named
         .map(|(name, share)| format!("{:.0} % {name}", 100.0 * share))

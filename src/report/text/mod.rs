@@ -10,6 +10,8 @@ pub(crate) use super::batch::together_of;
 use super::numbers::listed;
 use super::wrap::wrapped;
 use super::{Drop, Impact, Irregular, Rejected, Report, Warning, WarningCode, rule};
+use crate::order::sort_by_number;
+use crate::units::real;
 use details::{basis, ways};
 pub(crate) use heading::{answer, heard, mean_of, restitution};
 pub(crate) use models::model_name;
@@ -144,7 +146,7 @@ fn rejects(out: &mut String, rejected: &[Rejected], place: &str) {
             None => kinds.push((&r.detail, vec![time])),
         }
     }
-    kinds.sort_by_key(|(_, times)| std::cmp::Reverse(times.len()));
+    sort_by_number(&mut kinds, |(_, times)| -real(times.len()));
     for (detail, times) in kinds {
         let told = format!("  {detail}: {} s", times.join(", "));
         line(out, &wrapped(&told, 4));

@@ -4,6 +4,7 @@ use super::entry;
 use crate::fit::model::Budget;
 use crate::fit::model_selection::ALIKE;
 use crate::fit::{Estimate, ModelKind};
+use crate::order::sort_by_number;
 use crate::report::numbers::{odds, short, short_decimals};
 use crate::report::{Ball, Drop, Given, Model, Report, Settings, prediction, rebound};
 
@@ -198,7 +199,7 @@ fn causes(budget: &Budget) -> String {
             "a longer drop makes it smaller",
         ),
     ];
-    causes.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sort_by_number(&mut causes, |(share, ..)| -share);
     let named = causes.iter().take(2).filter(|(share, ..)| *share >= 0.2);
     let named: Vec<String> = named
         .map(|(share, name, _)| format!("{name} ({:.0} %)", 100.0 * share))

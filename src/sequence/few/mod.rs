@@ -4,6 +4,7 @@
 mod likelihood;
 
 use crate::event::Profile;
+use crate::order::sort_by_number;
 use likelihood::Likelihood;
 
 /// A sound that stands out.
@@ -62,7 +63,7 @@ pub fn few_impacts(
 ) -> Option<FewImpacts> {
     let likelihood = Likelihood::new(sounds, duration_s, longest_flight_s);
     let mut by_level: Vec<usize> = (0..sounds.len()).collect();
-    by_level.sort_by(|&a, &b| sounds[b].level.total_cmp(&sounds[a].level));
+    sort_by_number(&mut by_level, |&i| -sounds[i].level);
     by_level.truncate(MOST_SOUNDS);
     by_level.sort_unstable();
     let mut choices: Vec<(Vec<usize>, f64)> = Vec::new();
@@ -79,7 +80,7 @@ pub fn few_impacts(
             choices.extend(three.max_by(|a, b| a.1.total_cmp(&b.1)));
         }
     }
-    choices.sort_by(|a, b| b.1.total_cmp(&a.1));
+    sort_by_number(&mut choices, |(_, nats)| -nats);
     let (best, nats) = choices.first()?;
     let is_other = |choice: &&(Vec<usize>, f64)| choice.0[..2] != best[..2];
     let rival = choices.iter().find(is_other);

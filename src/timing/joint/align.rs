@@ -4,6 +4,7 @@ use super::interference::{JUDGED_S, UNKNOWN};
 use super::matched_search::{Search, Window, best_match};
 use super::start::Started;
 use super::{Place, Prior};
+use crate::order::sort_by_number;
 use crate::signal::correlate::Correlator;
 use crate::signal::interpolate::{KERNEL, shifted};
 use crate::signal::template::Template;
@@ -54,7 +55,7 @@ const FAINT: f64 = 1e-3;
 /// The aligned impacts next to one.
 fn nearest(aligned: &[usize], i: usize) -> Vec<usize> {
     let mut near = aligned.to_vec();
-    near.sort_by_key(|&j| j.abs_diff(i));
+    sort_by_number(&mut near, |&j| real(j.abs_diff(i)));
     near.truncate(NEIGHBOURS);
     near
 }
