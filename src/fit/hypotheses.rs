@@ -26,8 +26,6 @@ const DRAG_ODDS: [f64; 2] = [0.6, 0.4];
 /// Odds of an e that is the same at all speeds, of one that is a power of the speed, and of any smooth e. Measured
 /// (`examples/coverage outside`): with .6, .1 and .3 balls of other laws are held in .946 of the drops, with these in .958.
 const SHAPE_ODDS: [f64; 3] = [0.25, 0.05, 0.7];
-/// Odds of a linear ball over one whose impacts are all alike, e being the same at all fast impacts. Convention.
-const LINEAR_ODDS: f64 = 0.5;
 
 /// The course of e with the speed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -76,7 +74,8 @@ impl Shape {
 fn shapes(law: ImpactLaw) -> Vec<(Shape, f64)> {
     let [same, power, smooth] = SHAPE_ODDS;
     if law != ImpactLaw::Alike {
-        return vec![(Shape::Same, LINEAR_ODDS * same)];
+        // As likely as that all impacts are alike: weight acts in every contact, but which share of e it takes hangs on the ball.
+        return vec![(Shape::Same, same)];
     }
     let each = smooth / crate::units::real(BEND.len());
     let mut shapes = vec![(Shape::Same, same), (Shape::Power, power)];
