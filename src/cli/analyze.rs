@@ -120,15 +120,20 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         draw_sheets(&target, &arguments.file, track, &report)?;
     }
     let sheets = |file: &Path, report: &Report| figures(file, track, report);
-    keep(&arguments.document, &arguments.file, &report, sheets)?;
+    let known = &arguments.listening.known;
+    let ball = |detail| arguments.rule.ball(known, &report, detail);
+    keep(
+        &arguments.document,
+        &arguments.file,
+        &report,
+        &ball(Detail::Usual),
+        sheets,
+    )?;
     let output = match arguments.format {
         Format::Text => {
             let advice = |code| advice(&report, code);
             let detail = detail(arguments);
-            let ball = arguments
-                .rule
-                .ball(&arguments.listening.known, &report, detail);
-            text::to_text_with(&report, detail, &advice) + ball
+            text::to_text_with(&report, detail, &advice) + &ball(detail)
         }
         Format::Csv if arguments.decimal == Decimal::Comma => {
             csv::with_decimal_commas(&csv::to_csv(&report))
@@ -145,18 +150,19 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     })
 }
 
-/// Writes the page of a report, if one was asked for.
+/// Writes the page of a report, if one was asked for; what it means ends with what is said of the ball.
 pub(super) fn keep(
     document: &DocumentArguments,
     file: &Path,
     report: &Report,
+    ball: &str,
     figures: impl FnOnce(&Path, &Report) -> Result<Vec<Figure>, Error>,
 ) -> Result<(), Error> {
     let usual = text::to_text(report, Detail::Usual);
     let (answer, words) = usual.split_once('\n').unwrap_or((&usual, ""));
     let parts = || {
         Ok(vec![
-            section("What it means", Content::Text(words.to_owned())),
+            section("What it means", Content::Text(words.to_owned() + ball)),
             pictures(&figures(file, report)?)?,
             section(
                 "In full",

@@ -117,10 +117,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
     if let Some(target) = target {
         draw_all(&target, &sheets_of_times(&report))?;
     }
+    let ball = |detail| arguments.rule.ball(&arguments.known, &report, detail);
     keep(
         &arguments.document,
         &arguments.file,
         &report,
+        &ball(Detail::Usual),
         |_, report| Ok(sheets_of_times(report)),
     )?;
     let detail = match (arguments.quiet, arguments.verbose) {
@@ -129,10 +131,7 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome, Error> {
         (false, true) => Detail::Everything,
     };
     let output = match arguments.format {
-        Format::Text => {
-            let ball = arguments.rule.ball(&arguments.known, &report, detail);
-            text::to_text(&report, detail) + ball
-        }
+        Format::Text => text::to_text(&report, detail) + &ball(detail),
         Format::Csv if arguments.decimal == Some(Decimal::Comma) => {
             csv::with_decimal_commas(&csv::to_csv(&report))
         }

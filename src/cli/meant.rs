@@ -82,7 +82,7 @@ fn is_recording(argument: &str) -> bool {
 }
 
 /// Arguments as a shell takes them.
-fn quoted(arguments: &[String]) -> String {
+pub(super) fn quoted(arguments: &[String]) -> String {
     let plain = |c: char| c.is_alphanumeric() || "-_./=%,:@+".contains(c);
     let one = |argument: &String| {
         if !argument.is_empty() && argument.chars().all(plain) {

@@ -1,6 +1,7 @@
 //! `--rule`: the rebound that a rule book asks for.
 
 use std::ffi::OsStr;
+use std::slice;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::error::ErrorKind;
@@ -37,15 +38,29 @@ impl RuleArguments {
         }
     }
 
-    /// What the text of a report ends with where the ball is the rule's: with its mass and diameter e is a little another than
-    /// without any, and a user who compares both asks why.
-    pub(super) fn ball(&self, known: &Known, report: &Report, detail: Detail) -> &'static str {
-        let given = known.mass.is_some() || known.diameter.is_some();
-        if self.rule.is_none() || given || report.drops.is_empty() || detail == Detail::Answer {
-            return "";
+    /// What the text of a report ends with where the ball is the rule's.
+    pub(super) fn ball(&self, known: &Known, report: &Report, detail: Detail) -> String {
+        if self.rule.is_none() || report.drops.is_empty() || detail == Detail::Answer {
+            return String::new();
         }
-        "\nMass and diameter are the rule's, for the drag in e too (--mass, --diameter)\n"
+        ball_of_rule(slice::from_ref(known))
     }
+}
+
+/// What of the ball is the rule's, by what is known of each drop: with mass and diameter e is a little another than without, and
+/// a user who compares both asks why.
+pub(super) fn ball_of_rule(known: &[Known]) -> String {
+    let without = |of: fn(&Known) -> Option<f64>| known.iter().filter(|k| of(k).is_none()).count();
+    let missing = [without(|k| k.mass), without(|k| k.diameter)];
+    let (what, options) = match missing {
+        [0, 0] => return String::new(),
+        [_, 0] => ("The mass is", "--mass"),
+        [0, _] => ("The diameter is", "--diameter"),
+        _ => ("Mass and diameter are", "--mass, --diameter"),
+    };
+    let of_some = missing.iter().any(|m| (1..known.len()).contains(m));
+    let unless = if of_some { " where none is given" } else { "" };
+    format!("\n{what} the rule's{unless}, for the drag in e too ({options})\n")
 }
 
 /// 0 for a pass, 3 for a fail, 4 where it is undecided.

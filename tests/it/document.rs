@@ -125,3 +125,42 @@ fn what_is_no_page_is_not_replaced_and_a_pipe_has_none() {
     );
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
 }
+
+#[test]
+fn text_page_and_batch_say_what_of_the_ball_is_the_rules() {
+    let folder = empty_folder("document", "ball-of-the-rule");
+    let told = |arguments: &[&str]| {
+        let path = folder.join("a.html");
+        let page = ["--report", path.to_str().unwrap(), "--rule", "ittf-ball"];
+        let output = run(&[arguments, &page].concat());
+        let html = fs::read_to_string(&path).unwrap();
+        fs::remove_file(&path).unwrap();
+        [[output.stdout, output.stderr].concat(), html.into()].map(|bytes| text(&bytes))
+    };
+    let all = "for the drag in e too";
+    let (mass, diameter) = (["--mass", "2.7g"], ["--diameter", "40mm"]);
+    for (given, sentence) in [
+        (&[][..], "Mass and diameter are the rule's, for the drag"),
+        (&mass, "The diameter is the rule's, for the drag"),
+        (&diameter, "The mass is the rule's, for the drag"),
+        (&[mass, diameter].concat(), ""),
+    ] {
+        for command in ["analyze", "batch"] {
+            for said in told(&[&[command, &drop_wav()], given].concat()) {
+                let expected = usize::from(!sentence.is_empty());
+                assert!(said.contains(sentence), "{command} {given:?}: {said}");
+                assert_eq!(said.matches(all).count(), expected, "{command} {given:?}");
+            }
+        }
+    }
+    let [one, other] = ["one.wav", "other.wav"].map(|name| folder.join(name));
+    fs::copy(drop_wav(), &one).unwrap();
+    fs::copy(drop_wav(), &other).unwrap();
+    let table = folder.join("balls.csv");
+    fs::write(&table, "file,mass\none.wav,2.7g\nother.wav,\n").unwrap();
+    let [folder, table] = [&folder, &table].map(|path| path.to_str().unwrap());
+    for said in told(&["batch", folder, "--options", table]) {
+        let sentence = "Mass and diameter are the rule's where none is given, for the drag";
+        assert!(said.contains(sentence), "{said}");
+    }
+}

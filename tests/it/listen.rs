@@ -181,3 +181,16 @@ fn what_holds_no_drop_or_no_sound_is_said() {
         assert!(status == 2 && err.contains(said), "{err}");
     }
 }
+
+#[test]
+fn who_names_a_file_is_told_what_listen_takes_and_what_reads_files() {
+    for (given, command) in [
+        ("nothere.wav", "bounce-audio analyze nothere.wav\n"),
+        ("my drop.m4a", "bounce-audio analyze 'my drop.m4a'\n"),
+    ] {
+        let (out, err, status) = listen(&[given], b"");
+        assert_eq!((out.as_str(), status), ("", 2));
+        assert!(err.contains("a recorder, which it starts, or a pipe, which is -"));
+        assert!(err.ends_with(command), "{err}");
+    }
+}

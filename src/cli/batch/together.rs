@@ -6,8 +6,9 @@ use clap::ValueEnum;
 use serde_json::Value;
 
 use super::job::Job;
+use crate::cli::known::Known;
 use crate::cli::listen::name;
-use crate::cli::rule::status;
+use crate::cli::rule::{ball_of_rule, status};
 use crate::fit::groups::Groups;
 use crate::report::batch::{Digest, DropDigest, Found, compared, summary_json, told, verdict};
 use crate::report::rule::LotJudged;
@@ -75,7 +76,10 @@ impl Together {
         };
         let lot = judge_lot(rule, &drops.iter().map(of).collect::<Vec<_>>());
         let any_named = drops.iter().any(|(path, ..)| named(path).is_some());
+        let known = |path: &Path| Some(job.given(path).ok()?.over(job.listening).known);
+        let known: Vec<Known> = drops.iter().filter_map(|(path, ..)| known(path)).collect();
         self.said = "\n".to_owned() + &verdict(&lot, (!any_named).then_some(NAMING));
+        self.said += &ball_of_rule(&known);
         self.status = status(lot.outcome);
         self.lot = Some(lot);
     }

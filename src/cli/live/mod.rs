@@ -5,15 +5,19 @@ mod said;
 mod samples;
 mod saved;
 
-use std::path::PathBuf;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use clap::{Args, ValueEnum};
+use clap::builder::TypedValueParser;
+use clap::error::ErrorKind;
+use clap::{Arg, Args, Command, ValueEnum};
 
 use super::Outcome;
 use super::known::Known;
-use super::listen::{by_option, channel};
+use super::listen::{by_option, channel, name};
+use super::meant::quoted;
 use crate::Error;
 use crate::analysis::Live;
 use crate::recording::Channel;
@@ -36,7 +40,7 @@ use saved::Saved;
   bounce-audio listen --format ndjson | while read -r drop; do …; done")]
 pub(super) struct Arguments {
     /// - for standard input: a recording, or bare samples with --raw. Without it a recorder is started
-    #[arg(value_name = "-", value_parser = ["-"])]
+    #[arg(value_name = "-", value_parser = Pipe)]
     input: Option<String>,
     /// Start this command and listen to what it writes: a recording, or bare samples with --raw
     #[arg(long, value_name = "COMMAND", conflicts_with = "input")]
@@ -67,6 +71,31 @@ pub(super) struct Arguments {
     /// Keep the sound of each drop as WAV in this folder, with its impacts as labels
     #[arg(long, value_name = "FOLDER", conflicts_with = "time_scale")]
     save: Option<PathBuf>,
+}
+
+/// `-` and nothing else: a file was recorded before, and another command is for it.
+#[derive(Debug, Clone, Copy)]
+struct Pipe;
+
+impl TypedValueParser for Pipe {
+    type Value = String;
+
+    fn parse_ref(
+        &self,
+        command: &Command,
+        _: Option<&Arg>,
+        value: &OsStr,
+    ) -> Result<String, clap::Error> {
+        let given = name(Path::new(value));
+        if given == "-" {
+            return Ok(given);
+        }
+        let said = format!(
+            "listen hears a recorder, which it starts, or a pipe, which is -. To read a file: bounce-audio analyze {}\n",
+            quoted(&[given])
+        );
+        Err(clap::Error::raw(ErrorKind::ValueValidation, said).with_cmd(command))
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
