@@ -11,7 +11,7 @@
 //! cargo run --release --example found -- curve            e against speed over many drops
 //! cargo run --release --example found -- knocks           what knocks before a drop cost it
 //! cargo run --release --example found -- copies DIR       recordings put several times into one
-//! cargo run --release --example found -- nothing [DIR]    clips without a ball, and recordings without one
+//! cargo run --release --example found -- nothing [SEED] [DIR]  clips without a ball, of seeds from this on, and recordings without one
 //! cargo run --release --example found -- voices DIR DIR   recordings of drops under recordings of voices, and those alone
 //! ```
 //!
@@ -57,11 +57,20 @@ fn main() {
         ["curve"] => curve::table(),
         ["knocks"] => company::knocks(),
         ["copies", folder] => copies::table(Path::new(folder)),
-        ["nothing"] => nothing::table(None),
-        ["nothing", folder] => nothing::table(Some(Path::new(folder))),
+        ["nothing", rest @ ..] => nothing(rest),
         ["voices", balls, voices] => voices::table(Path::new(balls), Path::new(voices)),
         _ => eprintln!(
-            "found range | scatter | alternating | odd | begin | few | rebound | curve | knocks | copies DIR | nothing [DIR] | voices DIR DIR"
+            "found range | scatter | alternating | odd | begin | few | rebound | curve | knocks | copies DIR | nothing [SEED] [DIR] | voices DIR DIR"
         ),
     }
+}
+
+fn nothing(words: &[&str]) {
+    let seed = words.first().and_then(|word| word.parse().ok());
+    let folder = if seed.is_some() {
+        words.get(1)
+    } else {
+        words.first()
+    };
+    nothing::table(seed.unwrap_or(1), folder.map(Path::new));
 }

@@ -66,7 +66,8 @@ const PAIRS: [(&str, Change); 4] = [
     ("a door, open and shut", open_and_shut),
 ];
 
-pub(crate) fn table(folder: Option<&Path>) {
+/// The clips of seeds from `first` on, and the recordings of a folder.
+pub(crate) fn table(first: u64, folder: Option<&Path>) {
     println!("kind                     | with a drop | of them: impacts, e, nats");
     let mut all = (0, 0);
     for with_height in [false, true] {
@@ -79,7 +80,7 @@ pub(crate) fn table(folder: Option<&Path>) {
             }
         );
         for (name, change) in KINDS {
-            add(name, &clips(change, with_height), &mut all);
+            add(name, &clips(change, first, with_height), &mut all);
         }
     }
     if let Some(folder) = folder {
@@ -96,14 +97,14 @@ pub(crate) fn table(folder: Option<&Path>) {
             }
         );
         for (name, change) in PAIRS {
-            add(name, &clips(change, with_height), &mut (0, 0));
+            add(name, &clips(change, first, with_height), &mut (0, 0));
         }
     }
 }
 
 /// Clips of a kind, listened to with a height of 0.1 to 2 m or none.
-fn clips(change: Change, with_height: bool) -> Vec<Analysis> {
-    let seeds: Vec<u64> = (1..=CLIPS).collect();
+fn clips(change: Change, first: u64, with_height: bool) -> Vec<Analysis> {
+    let seeds: Vec<u64> = (first..first + CLIPS).collect();
     each(&seeds, |seed| {
         let made = render(&scene(change, *seed), *seed).unwrap();
         let rate = f64::from(made.truth.sample_rate_hz);
