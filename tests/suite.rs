@@ -72,9 +72,12 @@ fn evaluated(names: impl Iterator<Item = &'static str>) -> Evaluation {
 
 /// Figures that were once better and are owed: the threshold of the scene stays, and until it is met again this holds.
 /// What repays one takes it out here.
-const OWED: [(&str, &str, f64); 1] = [
+const OWED: [(&str, &str, f64); 3] = [
     // An impact that an ideal listener would not hear, near the end, is off by more than is counted as it.
     ("basketball", "precision", 0.968),
+    // Three impacts more are followed in one recording, inaudible but for one, off by 2 ms.
+    ("footsteps", "precision", 0.896),
+    ("hum", "timing_error_median_s", 4.05e-6),
 ];
 
 /// The same of the second suite: words and taps that quicken and fade, all of one sound, are taken for a ball, and oftener since

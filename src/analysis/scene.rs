@@ -87,7 +87,8 @@ impl<'a> Chained<'a> {
             listened_from_s: frame_time_s(bounds.listened_from, rate),
         };
         let events = heard.swap_remove(channel);
-        let found = sequence::find(&events);
+        let by_sound = |chain: &Chain| tail::follow(&stretch, chain.clone()).chain.evidence();
+        let found = sequence::find(&events, by_sound);
         let edge = Edge::of(&stretch, bounds.cut, &found);
         Self {
             stretch,

@@ -42,8 +42,11 @@ const LEAST_SHRINKAGE: f64 = 6.0;
 const LEAST_FLIGHT_S: f64 = 0.025;
 
 /// Finds the drops among events in order of time.
+///
+/// Energy that rises says little of short flights, where one sound rings into the next. So a chain that is likelier a ball than
+/// chance, but too little so for a drop, is one where it has enough evidence by the sound of its own impacts: `by_sound` gives that, in nats.
 #[must_use]
-pub fn find(events: &[Event]) -> Found {
+pub fn find(events: &[Event], by_sound: impl Fn(&Chain) -> f64) -> Found {
     if events.is_empty() {
         return Found::default();
     }
@@ -54,9 +57,15 @@ pub fn find(events: &[Event]) -> Found {
     let mut drops: Vec<Track> = Vec::new();
     let candidate = loop {
         let left: Vec<usize> = (0..events.len()).filter(|&i| !associated[i]).collect();
-        let (found, rest) = disjoint(events, &left, &drops);
+        let (mut found, mut rest) = disjoint(events, &left, &drops);
         if found.is_empty() {
-            break rest.filter(|_| drops.is_empty());
+            let is_drop = |track: &mut Track| {
+                track.chain.evidence() > 0.0 && by_sound(&track.chain) >= LEAST_EVIDENCE
+            };
+            found = rest.extract_if(.., is_drop).collect();
+        }
+        if found.is_empty() {
+            break rest.into_iter().next().filter(|_| drops.is_empty());
         }
         for track in found {
             for &i in &track.events {
@@ -70,14 +79,17 @@ pub fn find(events: &[Event]) -> Found {
     };
     sort_by_number(&mut drops, |track| track.chain.span_s().0);
     Found {
-        candidate,
+        candidate: candidate.map(|track| Candidate {
+            chain: track.chain,
+            needed_nats: LEAST_EVIDENCE,
+        }),
         ..reasons::explain(&scene, drops, &taken)
     }
 }
 
-/// The best chains among some of the events that share none, and are no echo of one another or of the drops known; and the best
-/// of those with too little evidence.
-fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> (Vec<Track>, Option<Candidate>) {
+/// The best chains among some of the events that share none, and are no echo of one another or of the drops known; and those with
+/// too little evidence, the best first.
+fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> (Vec<Track>, Vec<Track>) {
     let some: Vec<Event> = left.iter().map(|&i| events[i]).collect();
     let clutter = Clutter::new(&some);
     let scene = Scene::new(&some, &clutter);
@@ -85,18 +97,18 @@ fn disjoint(events: &[Event], left: &[usize], known: &[Track]) -> (Vec<Track>, O
     tracks.retain(|track| is_shaped(&track.chain));
     let apart = apart(tracks, known);
     let is_enough = |track: &Track| track.chain.evidence() >= LEAST_EVIDENCE;
-    let (mut found, rest): (Vec<Track>, Vec<Track>) = apart.into_iter().partition(is_enough);
+    let (mut found, mut rest): (Vec<Track>, Vec<Track>) = apart.into_iter().partition(is_enough);
     if found.is_empty() {
         found = together(&scene, &rest, LEAST_EVIDENCE);
     }
-    for event in found.iter_mut().flat_map(|track| &mut track.events) {
+    for event in found
+        .iter_mut()
+        .chain(&mut rest)
+        .flat_map(|track| &mut track.events)
+    {
         *event = left[*event];
     }
-    let candidate = rest.into_iter().next().map(|track| Candidate {
-        chain: track.chain,
-        needed_nats: LEAST_EVIDENCE,
-    });
-    (found, candidate)
+    (found, rest)
 }
 
 /// The chains of most evidence that share no event and are no echo of one another or of those known, the best first.
@@ -223,5 +235,42 @@ pub(super) fn reject(event: &Event, reason: Reason) -> NonImpact {
     NonImpact {
         time_s: event.time_s,
         reason,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::event::Profile;
+
+    /// Faint impacts of a ball, and a sound as loud every second.
+    fn faint() -> Vec<Event> {
+        let impacts_s = [2.0, 2.5, 2.9, 3.22, 3.476, 3.6808];
+        let others_s = (0..3).map(|n| real(n) + 0.17);
+        let event = |time_s| Event {
+            time_s,
+            jitter_s: 1e-4,
+            strength: 20.0,
+            loudness: 3.0,
+            profile: Profile::default(),
+        };
+        let mut events: Vec<Event> = impacts_s.into_iter().chain(others_s).map(event).collect();
+        sort_by_number(&mut events, |event| event.time_s);
+        events
+    }
+
+    #[test]
+    fn a_chain_with_too_little_evidence_is_a_drop_where_its_own_sound_has_enough() {
+        let silent = find(&faint(), |_| 0.0);
+        let candidate = silent.candidate.unwrap();
+        let evidence = candidate.chain.evidence();
+        assert!(
+            silent.drops.is_empty() && (0.0..LEAST_EVIDENCE).contains(&evidence),
+            "{evidence}"
+        );
+        let heard = find(&faint(), |chain| chain.evidence() + LEAST_EVIDENCE);
+        assert!(heard.candidate.is_none());
+        assert!(heard.drops.len() == 1 && heard.drops[0].impacts == candidate.chain.impacts);
+        assert!(heard.rejected.len() < silent.rejected.len());
     }
 }

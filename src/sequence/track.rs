@@ -109,14 +109,16 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
             chance: chance(ln_rates[i], second),
         })
         .collect();
+    // The mean loudness is that of the second impact; the others differ from it as their speeds do.
     let loudness = seed.iter().map(|&i| scene.events[i].loudness).sum::<f64>() / 3.0;
+    let slower = (second / first).ln();
     let start = Hypothesis {
         last: None,
         law,
         time_s: t[2],
         flight_s: second,
         doubt,
-        loudness,
+        loudness: loudness + slower,
         profile: profiles[2],
         score: 0.0,
     };
@@ -130,6 +132,7 @@ pub fn follow(scene: &Scene<'_>, rates: &mut Rates<'_>, seed: [usize; 3]) -> Vec
         law: law_back.at_large(),
         time_s: t[0],
         flight_s: first,
+        loudness: loudness - slower,
         profile: profiles[0],
         ..start
     };
@@ -144,5 +147,49 @@ fn relearn(law: &mut FlightLaw, mut flight_s: f64, times_s: &[f64], doubt: Doubt
         let next = pair[1] - pair[0];
         law.learn(flight_s, next, doubt);
         flight_s = next;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::event::Profile;
+    use crate::units::real;
+
+    /// What the fourth impact, or the first, of a dead ball earns that is louder than its speed makes it by so much.
+    fn gain(louder: f64, other: usize) -> f64 {
+        let (mut time_s, mut events) = (1.0, Vec::new());
+        for n in 0..4 {
+            let flight_s = 0.6 * 0.5_f64.powi(n);
+            let speed = flight_s.ln();
+            events.push(Event {
+                time_s,
+                jitter_s: 1e-4,
+                strength: 50.0,
+                loudness: 4.0 + speed,
+                profile: Profile::default(),
+            });
+            time_s += flight_s;
+        }
+        events[other].loudness += louder;
+        let clutter = Clutter::new(&events);
+        let scene = Scene::new(&events, &clutter);
+        let seed: Vec<usize> = (0..4).filter(|n| *n != other).collect();
+        let steps = follow(&scene, &mut scene.rates(), [seed[0], seed[1], seed[2]]);
+        let step = steps.iter().find(|step| step.event == Some(other)).unwrap();
+        // What the loudness says alone: the rate at which others are as loud is left out.
+        step.gain + step.ln_rate
+    }
+
+    #[test]
+    fn the_impact_beside_the_first_three_is_as_loud_as_its_speed_makes_it() {
+        for other in [0, 3] {
+            let exact = gain(0.0, other);
+            for louder in [-0.3, 0.3] {
+                assert!(exact > gain(louder, other) + 0.1, "{other} by {louder}");
+            }
+            let lost = (gain(-0.3, other) - gain(0.3, other)).abs();
+            assert!(lost < 1e-9 * real(10), "{other}: {lost}");
+        }
     }
 }
