@@ -77,6 +77,7 @@ fn sounds(times_s: &[f64]) -> (Vec<Event>, Vec<sequence::few::ClearSound>) {
         jitter_s: 5e-4,
         level: -1.0,
         is_short: true,
+        is_new: true,
         profile: Profile::default(),
     };
     let events = times_s.iter().map(event).collect();

@@ -18,6 +18,8 @@ pub struct ClearSound {
     pub level: f64,
     /// Whether most of it is over soon after its onset, as of what was struck.
     pub is_short: bool,
+    /// Whether most of it was not there before: in flight a ball is silent.
+    pub is_new: bool,
     /// How its energy is spread over the octaves.
     pub profile: Profile,
 }
@@ -65,6 +67,8 @@ pub fn few_impacts(
     let mut by_level: Vec<usize> = (0..sounds.len()).collect();
     sort_by_number(&mut by_level, |&i| -sounds[i].level);
     by_level.truncate(MOST_SOUNDS);
+    // What only changes another sound is no impact, but stands beside those that may be.
+    by_level.retain(|&i| sounds[i].is_new);
     by_level.sort_unstable();
     let mut choices: Vec<(Vec<usize>, f64)> = Vec::new();
     for (place, &first) in by_level.iter().enumerate() {

@@ -7,6 +7,7 @@ fn sounds(at: &[(f64, f64)]) -> Vec<ClearSound> {
         jitter_s: 2e-4,
         level,
         is_short: true,
+        is_new: true,
         profile: Profile::new([1.0, 4.0, 2.0].into_iter()),
     };
     at.iter().map(sound).collect()
@@ -67,6 +68,19 @@ fn two_sounds_that_last_long_are_not_enough() {
     long.iter_mut().for_each(|sound| sound.is_short = false);
     let few = few_impacts(&long, 6.0, Some(0.8));
     assert!(!few.is_some_and(|few| few.are_enough()));
+}
+
+#[test]
+fn what_only_changes_another_sound_is_no_impact_and_stands_beside_those_that_are() {
+    let mut changing = sounds(&TWO);
+    changing[1].is_new = false;
+    assert!(few_impacts(&changing, 6.0, Some(0.8)).is_none());
+    let nats = |is_new: bool| {
+        let mut sounds = sounds(&[TWO[0], TWO[1], (3.0, -2.2)]);
+        sounds[2].is_new = is_new;
+        few_impacts(&sounds, 6.0, Some(0.8)).unwrap().nats
+    };
+    assert!((nats(true) - nats(false)).abs() < 1e-9);
 }
 
 #[test]
