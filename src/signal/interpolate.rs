@@ -24,14 +24,21 @@ pub fn shifted(samples: &[f64], position: f64, length: usize) -> Vec<f64> {
         // At a sample the kernel is 1 there and 0 at all others.
         return padded(samples, first + KERNEL.cast_signed() - 1, length);
     }
-    let needed = length + kernel.len() - 1;
-    let inside = usize::try_from(first)
-        .ok()
-        .and_then(|from| samples.get(from..from.checked_add(needed)?));
-    match inside {
-        Some(inside) => correlated(inside, &kernel),
-        None => correlated(&padded(samples, first, needed), &kernel),
+    // Inside, all weights lie within the samples; beside that the few that do are summed.
+    let inside = samples.len().cast_signed() - kernel.len().cast_signed() + 1 - first;
+    let begin = usize::try_from(-first).unwrap_or(0).min(length);
+    let end = usize::try_from(inside).unwrap_or(0).clamp(begin, length);
+    let beside = |i: usize| weighted(samples, first + i.cast_signed(), &kernel);
+    let mut out = Vec::with_capacity(length);
+    out.extend((0..begin).map(beside));
+    if let Ok(from) = usize::try_from(first + begin.cast_signed())
+        && end > begin
+    {
+        let inside = &samples[from..from + (end - begin) + kernel.len() - 1];
+        correlate_into(&mut out, inside, &kernel);
     }
+    out.extend((end..length).map(beside));
+    out
 }
 
 /// `length` samples from an index on; zero where there are none.
@@ -50,7 +57,18 @@ const BLOCK: usize = 16;
 
 /// `Σ_k weights[k]·samples[i + k]` for every i at which all weights lie within the samples.
 pub(crate) fn correlated<T: Copy + Into<f64>>(samples: &[T], weights: &[f64]) -> Vec<f64> {
-    Arch::new().dispatch(Correlation { samples, weights })
+    let mut out = Vec::new();
+    correlate_into(&mut out, samples, weights);
+    out
+}
+
+/// Appends what [`correlated`] gives.
+fn correlate_into<T: Copy + Into<f64>>(out: &mut Vec<f64>, samples: &[T], weights: &[f64]) {
+    Arch::new().dispatch(Correlation {
+        samples,
+        weights,
+        out,
+    });
 }
 
 /// A correlation that is compiled for several kinds of vectors. The sums are the same to the last digit with all: products and
@@ -58,28 +76,34 @@ pub(crate) fn correlated<T: Copy + Into<f64>>(samples: &[T], weights: &[f64]) ->
 struct Correlation<'a, T> {
     samples: &'a [T],
     weights: &'a [f64],
+    out: &'a mut Vec<f64>,
 }
 
 impl<T: Copy + Into<f64>> WithSimd for Correlation<'_, T> {
-    type Output = Vec<f64>;
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Vec<f64> {
-        let Self { samples, weights } = self;
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self {
+            samples,
+            weights,
+            out,
+        } = self;
         let count = (samples.len() + 1).saturating_sub(weights.len());
-        if count < BLOCK {
-            return (0..count)
-                .flat_map(|i| block::<T, 1>(&samples[i..], weights))
-                .collect();
+        out.reserve(count);
+        let whole = count - count % BLOCK;
+        for start in (0..whole).step_by(BLOCK) {
+            out.extend_from_slice(&block::<T, BLOCK>(&samples[start..], weights));
         }
-        let mut out = Vec::with_capacity(count);
-        for start in (0..count).step_by(BLOCK) {
+        match count.checked_sub(BLOCK) {
             // The last block begins where it ends with the last output.
-            let start = start.min(count - BLOCK);
-            let sums: [f64; BLOCK] = block(&samples[start..], weights);
-            out.extend_from_slice(&sums[out.len() - start..]);
+            Some(start) if whole < count => {
+                let sums: [f64; BLOCK] = block(&samples[start..], weights);
+                out.extend_from_slice(&sums[whole - start..]);
+            }
+            Some(_) => {}
+            None => out.extend((0..count).flat_map(|i| block::<T, 1>(&samples[i..], weights))),
         }
-        out
     }
 }
 

@@ -80,10 +80,10 @@ impl<'a> Joint<'a> {
     }
 
     /// One round of the outer loop, from the heads as they are; whether nothing moved.
-    fn round(&mut self, heads: &mut Vec<Sample>) -> bool {
+    fn round(&mut self, heads: &mut [Sample]) -> bool {
         self.hold(heads);
         let before = self.now();
-        *heads = self.rest();
+        self.rest(heads);
         self.learn_misfit(heads);
         let since = self.since(&before);
         self.held.learn(since.steps());
@@ -109,7 +109,7 @@ impl<'a> Joint<'a> {
             self.hold(&mut heads);
             let before = self.now();
             let jumped = self.jump(&mut rivals);
-            heads = self.rest();
+            self.rest(&mut heads);
             self.learn_misfit(&heads);
             if !jumped || self.since(&before).rests() {
                 break;

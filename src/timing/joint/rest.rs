@@ -24,16 +24,15 @@ const STEADY: f64 = 0.9;
 const SHARES: (f64, f64) = (0.5, 0.95);
 
 impl Joint<'_> {
-    /// Times and template in turn until they rest. Gives the heads as they rest.
+    /// Times and template in turn until they rest, and the heads with them, whose noise and weights are held.
     ///
     /// What all moves have in common is not gone: times and template leave it undetermined, and it would creep on for ever.
     /// Where the moves beyond it are about the same share r of those of the round before, the rest of the way is
     /// `r + r² + … = r/(1 − r)` of the last ones (Aitken), and is gone at once.
-    pub(super) fn rest(&mut self) -> Vec<Sample> {
+    pub(super) fn rest(&mut self, heads: &mut [Sample]) {
         let count = self.places.len();
         let mut before: Option<Vec<f64>> = None;
         let mut damping = Damping::lasting(count);
-        let mut heads = Vec::new();
         for _ in 0..LIMIT {
             let steps: Vec<Step> = (0..count).map(|i| self.step(i)).collect();
             let moves: Vec<Moved> = steps.iter().map(|s| s.moved).collect();
@@ -50,18 +49,16 @@ impl Joint<'_> {
                     0.0
                 }
             });
-            let each = steps.iter().zip(on).enumerate();
-            heads = each
-                .map(|(i, (step, on))| self.go_on(i, step, on))
-                .collect();
+            for (i, (step, on)) in steps.iter().zip(on).enumerate() {
+                self.go_on(i, step, on, &mut heads[i]);
+            }
             let stretches = &self.started.contact_stretches;
-            self.template.learn_shape(&heads, stretches);
+            self.template.learn_shape(heads, stretches);
             if greatest(&beyond) < REST {
                 break;
             }
             before = share.is_none().then_some(beyond);
         }
-        heads
     }
 
     /// The places as they are, with their standard errors.

@@ -93,21 +93,13 @@ impl Joint<'_> {
         }
     }
 
-    /// Goes on from where a step led, by at most [`STEP`]; gives the head where the impact then stands.
-    pub(super) fn go_on(&mut self, i: usize, step: &Step, by: f64) -> Sample {
+    /// Goes on from where a step led, by at most [`STEP`], and the head of the impact with it.
+    pub(super) fn go_on(&mut self, i: usize, step: &Step, by: f64, head: &mut Sample) {
         let by = by.clamp(-STEP, STEP);
         self.places[i].position += by;
-        Sample {
-            amplitude: self.places[i].amplitude,
-            contact_stretch: self.started.contact_stretches[i],
-            sound: shifted(
-                &step.wide,
-                real(KERNEL) + step.moved.by + by,
-                self.template.head,
-            ),
-            noise: self.noise[i].clone(),
-            weights: self.weights[i].clone(),
-        }
+        head.amplitude = self.places[i].amplitude;
+        let from = real(KERNEL) + step.moved.by + by;
+        head.sound = shifted(&step.wide, from, self.template.head);
     }
 
     /// Standard error of a place by its match and its prior, in samples.
